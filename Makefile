@@ -5,7 +5,7 @@ JOBS ?= $(shell nproc)
 PROGRAM := build/release/bin/hyperex
 
 .DEFAULT_GOAL := help
-.PHONY: help demo test build install python deb asan tsan coverage lint fresh docs fuzz bench experiments fidelity mutations interop clean setup
+.PHONY: help demo test build install python deb asan tsan coverage lint fresh docs fuzz bench experiments fidelity muscles mutations interop mutants clean setup
 
 # Where HOME cannot be written to (a service, a container) the compiler's cache stands here.
 ifneq ($(shell test -w "$$HOME" && echo yes),yes)
@@ -108,6 +108,12 @@ fuzz: ## fuzz every reader of files with libFuzzer, 10 minutes each (SECONDS_EAC
 	cmake --build --preset fuzz --parallel $(JOBS)
 	JOBS=$(JOBS) RUNS_EACH=$(RUNS_EACH) tests/fuzz/run.sh $(or $(SECONDS_EACH),600)
 
+mutants: ## broken inputs of every format through the whole program, under the sanitizers (COUNT=5 of each)
+	scripts/setup.sh --tests
+	cmake --preset asan -B build/asan_program -DHYPEREX_TESTS=OFF
+	cmake --build build/asan_program --parallel $(JOBS) --target hyperex
+	python3 tests/fuzz/mutate_program.py --program build/asan_program/bin/hyperex --count $(or $(COUNT),5)
+
 bench: ## measure everything, beside CalculiX, and write docs/performance.md (QUICK=1: a look)
 	scripts/setup.sh --bench
 	cmake --preset release
@@ -122,6 +128,13 @@ experiments: build ## the thesis' three experiments and twin experiments: report
 fidelity: build ## errors against true faces, into the table of docs/fidelity.md (needs the data in ../shared)
 	cmake --build --preset release --parallel $(JOBS) --target test_fidelity
 	HYPEREX_FIDELITY_PAGE=$(CURDIR)/docs/fidelity.md build/release/bin/test_fidelity --gtest_filter=Fidelity.TableIsWritten
+
+# WITH: arguments of muscle_bench, as WITH="tissue_alone=1 kind=7".
+muscles: setup ## errors of many expressions moved by muscles, of docs/muscles.md (needs the data in ../shared)
+	cmake --preset release $(CMAKE_OPTIONS)
+	cmake --build --preset release --parallel $(JOBS) --target muscle_bench
+	test -e build/muscles/cases.txt || bench/rig_cases.py ../shared/data build/muscles
+	build/release/bin/muscle_bench build/muscles/cases.txt $(WITH)
 
 docs: setup ## the documentation as a site that needs no network: build/docs/html/index.html
 	scripts/setup.sh --docs

@@ -20,7 +20,6 @@
 #include <memory>
 #include <sstream>
 
-#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -28,6 +27,7 @@
 #include "hyperex/metrics/baseline.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/roughness.hpp"
+#include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -132,8 +132,9 @@ double squared_mahalanobis(const simulate::ShapePosterior& posterior, Eigen::Ind
   return error.dot(posterior.covariance(place).ldlt().solve(error));
 }
 
-/// What is known of the skin between the driven points of a run.
+/// What is known of the skin between the driven points of a run; `upper_margin`: of its skin.
 simulate::ShapePosterior posterior_of(const simulate::Performance& p,
+                                      const std::vector<double>& upper_margin,
                                       const simulate::MovedPlaces& places,
                                       const io::Landmarks& landmarks) {
   simulate::PosteriorOptions options;
@@ -141,20 +142,10 @@ simulate::ShapePosterior posterior_of(const simulate::Performance& p,
   take("misfit_share", options.misfit_share);
   take("misfit_length", options.misfit_length_m, 1e-3);
   take("point", options.point_m, 1e-3);
-  std::vector<simulate::DrivenPoint> points;
-  simulate::MovedPlaces driven{p.driven_points_rest, Eigen::VectorXd(p.driven_points_rest.rows())};
-  const PointsF& motion = p.skin_displacement_m[std::size_t(p.peak_frame)];
-  for (std::size_t i = 0; i < p.driven_names.size(); ++i) {
-    const auto row = Eigen::Index(i);
-    points.push_back({p.driven_names[i], driven.rest.row(row).transpose()});
-    Eigen::Index vertex = 0;
-    (p.skin_rest.points.rowwise() - driven.rest.row(row)).rowwise().squaredNorm().minCoeff(&vertex);
-    driven.motion_m[row] = double(motion.row(vertex).norm());
-    driven.upper_margin.push_back(0.01 * anatomy::lip_of(p.driven_names[i]));
-  }
-  const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, points,
+  const metrics::DrivenMotion driven = metrics::driven_motion(p, upper_margin);
+  const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, driven.points,
                                        simulate::MuscleOptions{}.shape_sigma_m);
-  return simulate::ShapePosterior(shapes, places, driven, options);
+  return simulate::ShapePosterior(shapes, places, driven.places, options);
 }
 
 constexpr double kWithin95 = 7.815;  // 95 % quantile of chi squared with three degrees of freedom
@@ -283,7 +274,7 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   fmt::print("  residual {:.4f}, {} frames, {:.2f} s\n", c.residual_mm, c.frames, c.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
   if (has("coverage"))
-    print_coverage(posterior_of(p,
+    print_coverage(posterior_of(p, mesh->skin_upper_margin,
                                 {rest,
                                  (moved - rest).rowwise().norm(),
                                  {mesh->skin_upper_margin.begin(),
@@ -360,8 +351,8 @@ Score score_markers(const std::string& name, const std::string& scene_file) {
         (tracks.positions[1].row(row) - tracks.positions[0].row(row)).norm();
   }
   const simulate::ShapePosterior posterior =
-      posterior_of(result.performance, {places, of_places, std::vector<double>(test.size(), 0.0)},
-                   inputs.landmarks);
+      posterior_of(result.performance, session.mesh().skin_upper_margin,
+                   {places, of_places, std::vector<double>(test.size(), 0.0)}, inputs.landmarks);
   std::map<std::string, double> run, warp, within, squared_error;
   for (std::size_t f = 0; f < frames.size(); ++f) {
     std::vector<std::string> held = inputs.driven;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What all files of the Python module share. Each subject is one file with one bind_ function.
+// Declarations shared by all files of the Python module. Each subject is one file with one bind_
+// function.
 #include <pybind11/eigen.h>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
@@ -33,6 +34,7 @@ void bind_measures(py::module_& m);
 void bind_compare(py::module_& m);
 void bind_export(py::module_& m);
 void bind_scene(py::module_& m);
+void bind_visits(py::module_& m);
 
 /// From "mm", "cm" or "m"; InputError for another word.
 std::optional<io::LengthUnit> unit_from(const std::optional<std::string>& word);

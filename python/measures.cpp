@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What is measured of a motion: excursions, symmetry.
+// SPDX-License-Identifier: GPL-3.0-or-later Measures of a motion: excursions, symmetry.
 #include <cmath>
 #include <optional>
 
@@ -93,14 +92,17 @@ void bind_excursions(py::module_& m) {
       "motion"_a, "jitter_m"_a = 0.0, "lowpass_hz"_a = kUsualLowpass_hz, "twin"_a = py::none(),
       Unlocked(),
       "How far both points of each pair travel. `jitter_m` is that of the recorded points; `twin`: "
-      "the landmarks of a run of the mirrored motion (Scene.mirrored_motion), which tells what the "
-      "mesh makes of a figure.");
-  py::class_<ExcursionChange>(m, "ExcursionChange", "Of a side's excursion from run to run.")
+      "the landmarks of a run of the mirrored motion (Scene.mirrored_motion), which shows the "
+      "effect of the mesh on a figure.");
+  py::class_<ExcursionChange>(m, "ExcursionChange",
+                              "The change of one side's excursion between two runs.")
       .def_readonly("from_mm", &ExcursionChange::from_mm)
       .def_readonly("to_mm", &ExcursionChange::to_mm)
       .def_property_readonly("change_mm", &ExcursionChange::change_mm)
-      .def_readonly("band_mm", &ExcursionChange::band_mm,
-                    "What mesh (by the twins) and jitter (95 %) make of it; NaN without twins.")
+      .def_readonly(
+          "band_mm", &ExcursionChange::band_mm,
+          "Uncertainty of the change due to the mesh (by the twins) and jitter (95 %); NaN without "
+          "twins.")
       .def_property_readonly(
           "decided",
           [](const ExcursionChange& self) -> py::object {

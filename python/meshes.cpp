@@ -8,6 +8,7 @@
 #include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/tracking/scan/scan_landmarks.hpp"
 
 namespace hyperex::python {
@@ -43,11 +44,9 @@ io::Landmarks found_on(const io::Scan& scan) {
 }
 
 Face embedded_face() {
-  anatomy::EmbeddedFace embedded = anatomy::embedded_face();
   Face face;
-  face.scan.file = "embedded face";
-  face.scan.mesh = std::move(embedded.mesh);
-  face.landmarks = std::move(embedded.landmarks);
+  face.scan = session::embedded_scan();
+  face.landmarks = anatomy::embedded_face().landmarks;
   return face;
 }
 

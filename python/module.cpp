@@ -53,4 +53,5 @@ PYBIND11_MODULE(_hyperex, m) {
   bind_compare(m);
   bind_export(m);
   bind_scene(m);
+  bind_visits(m);
 }

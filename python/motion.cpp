@@ -179,8 +179,8 @@ void bind_motion(py::module_& m) {
         return motion::with_rest(motion, {from_s, to_s}).motion;
       },
       "motion"_a, "from_s"_a, "to_s"_a, Unlocked(),
-      "The motion led from the face's rest in a stretch of it (s from its start). Stabilise "
-      "first.");
+      "The motion, preceded by a transition from rest. The face is at rest from from_s to to_s (s "
+      "from the start). Stabilise first.");
   m.def(
       "with_point_gains",
       [](const Motion& motion, const std::map<std::string, double>& gains) {

@@ -7,7 +7,7 @@
 
 namespace hyperex::python {
 
-/// What tissue may touch, as Python hands it on.
+/// Obstacles for contact, as Python passes them on.
 struct Obstacles {
   std::shared_ptr<const std::vector<simulate::Obstacle>> all;  ///< null: nothing
 };

@@ -7,7 +7,7 @@
 
 namespace hyperex::python {
 
-/// What a run computed, with arrays of NumPy that are made once when they are first asked for.
+/// The results of a run, with NumPy arrays that are created at the first access.
 struct RunResult {
   simulate::SimulationResult result;
   std::shared_ptr<const tissue::TissueMesh> mesh;

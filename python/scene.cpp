@@ -57,7 +57,7 @@ py::object run(const Path& file, const Path& out, const py::dict& changes) {
   return loaded(summary);
 }
 
-/// What one run of a session gave.
+/// The result of one run of a session.
 struct PythonResult {
   session::FaceResult result;
   std::shared_ptr<RunResult> performance;
@@ -248,7 +248,7 @@ void bind_parts(SessionClass bound, py::module_& m) {
           "SimulationOptions of base, a copy.")
       .def_property_readonly(
           "obstacles", [](const S& s) { return Obstacles{s.session().obstacles()}; },
-          "Teeth and eyeballs, where contact.teeth or contact.eyes asks for them.")
+          "Teeth and eyeballs, if a face has contact.teeth or contact.eyes.")
       .def_property_readonly("variants", &S::variants,
                              "Name -> SimulationOptions of each variant, for "
                              "Simulator.set_options().")
@@ -258,12 +258,12 @@ void bind_parts(SessionClass bound, py::module_& m) {
             const metrics::SkinUncertainty* known = s.session().skin_uncertainty();
             return known ? py::cast(known->distance_mm) : py::none();
           },
-          "Per vertex of the skin, once base was run: how far it is expected to be from the true "
-          "face, by what the driven points do not tell. None where shapes of real faces do not "
-          "take part.")
+          "Per vertex of the skin, once base was run: its expected distance from the true face, "
+          "due to what the driven points do not determine. None where shapes of real faces do "
+          "not take part.")
       .def_property_readonly(
           "jitter_m", [](const S& s) { return s.session().inputs().jitter_m; },
-          "Of the recorded points; 0: none known.")
+          "Jitter of the recorded points; 0: none known.")
       .def(
           "simulator",
           [simulator = py::object(m.attr("Simulator"))](const S& s) {

@@ -170,8 +170,8 @@ void bind_simulator(py::module_& m) {
             self.change([&](auto& s) { s.set_obstacles(obstacles.all); });
           },
           "obstacles"_a,
-          "Teeth and eyeballs that the tissue stays out of where ContactOptions.teeth and eyes ask "
-          "for it.")
+          "Teeth and eyeballs that the tissue does not enter, where ContactOptions.teeth or eyes "
+          "is True.")
       .def(
           "set_motion",
           [](S& self, const AlignedMotion& motion) {

@@ -33,6 +33,7 @@ const withNotices: Plugin = {
     handler: (html, { bundle }) => {
       const modules = Object.values(bundle ?? {}).flatMap((part) => part.type === 'chunk' ? part.moduleIds : []);
       const packages = [...new Set(modules.map(packageOf).filter((name) => name !== undefined))].sort();
+      if (packages.length === 0) return html;
       const text = `This page is part of Hyperex (GPL-3.0-or-later) and carries these packages:\n\n${notices(packages)}`;
       return html.replace('</body>', () => `  <!--\n${text.replaceAll('--', '- -')}-->\n  </body>`);
     },

@@ -24,6 +24,7 @@ void add_studio(CLI::App& program);
 void add_sweep(CLI::App& program);
 void add_symmetry(CLI::App& program);
 void add_track(CLI::App& program);
+void add_visits(CLI::App& program);
 
 /// The lines of `hyperex --version`.
 std::string version_text();

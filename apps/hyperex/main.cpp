@@ -78,6 +78,7 @@ void add_subcommands(CLI::App& program) {
   hyperex::cli::add_mesh(program);
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
+  hyperex::cli::add_visits(program);
   hyperex::cli::add_track(program);
   hyperex::cli::add_rig(program);
   hyperex::cli::add_presets(program);
@@ -164,6 +165,7 @@ int status_of(CLI::App& program, int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  hyperex::end_cleanly_without_memory();
   keep_freed_memory();
   hyperex::open_standard_streams();
   // With SIGXFSZ ignored, exceeding a file size limit becomes a failed write with a message instead

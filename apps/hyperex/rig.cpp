@@ -17,6 +17,7 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/rig/face_rig.hpp"
+#include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/log_note.hpp"
 
 namespace hyperex::cli {
@@ -24,7 +25,7 @@ namespace {
 
 struct RigOptions {
   std::filesystem::path scan, landmarks, out;
-  std::string unit;
+  std::string unit, names = "arkit";
   std::vector<std::string> overrides;
 };
 
@@ -48,10 +49,9 @@ session::Face face_of(const RigOptions& options) {
     if (!options.landmarks.empty() || !options.unit.empty())
       throw InputError(
           "embedded has its own landmarks and unit; expected a scan with --landmarks or --unit");
-    anatomy::EmbeddedFace embedded = anatomy::embedded_face();
     session::Face face;
-    face.scan.mesh = std::move(embedded.mesh);
-    face.landmarks = std::move(embedded.landmarks);
+    face.scan = session::embedded_scan();
+    face.landmarks = anatomy::embedded_face().landmarks;
     return face;
   }
   session::Face face;
@@ -64,16 +64,22 @@ session::Face face_of(const RigOptions& options) {
   return face;
 }
 
+/// Unreal's Live Link names ARKit's curves with a first capital: EyeBlinkLeft, JawOpen.
+void name_as_unreal_does(std::vector<report::RigShape>& shapes) {
+  for (report::RigShape& shape : shapes) shape.name.front() += 'A' - 'a';
+}
+
 void run(const RigOptions& options) {
   check_outputs({options.out}, {options.scan, options.landmarks});
   check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
   take_library_memory();
-  const rig::FaceRig made =
+  rig::FaceRig made =
       rig::make_rig(face_of(options), changes_of(options.overrides), session::log_note);
   for (const std::string& side : made.closed_eyes)
     std::cerr << fmt::format(
         "warning: the scan's {} eye is closed: shapes of its lids and of gaze move nothing\n",
         side == "Left" ? "left" : "right");
+  if (options.names == "unreal") name_as_unreal_does(made.shapes);
   double bytes = 0;
   {
     Progress progress("writing the rig", 0);
@@ -84,8 +90,8 @@ void run(const RigOptions& options) {
     std::cout << fmt::format("{:<20} {:5.1f} mm\n", shape.name,
                              1e3 * shape.displacement_m.rowwise().norm().maxCoeff());
   std::cout << fmt::format(
-      "{} shapes of {} vertices (greatest displacement at weight 1); tongueOut moves nothing, as "
-      "there is no tongue\n"
+      "{} shapes of {} vertices (greatest displacement at weight 1); tongueOut moves nothing: "
+      "the tongue stays in the mouth\n"
       "written to {}: {:.1f} MB\n",
       made.shapes.size(), made.performance.skin_rest.points.rows(), printable(options.out.string()),
       bytes / 1e6);
@@ -106,6 +112,12 @@ void add_rig(CLI::App& program) {
                       "Landmarks on the scan (default: they are found on the scan)");
   command->add_option("--unit", options->unit, "Unit of the scan")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
+  command
+      ->add_option("--names", options->names,
+                   "Names of the shapes: arkit (jawOpen) or unreal (JawOpen, as its Live Link has "
+                   "them)")
+      ->check(CLI::IsMember({"arkit", "unreal"}))
+      ->capture_default_str();
   command
       ->add_option("--set", options->overrides,
                    "Override a key of a scene (docs/scene.md), as of muscles or tissue; can be "

@@ -16,8 +16,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -26,6 +28,7 @@
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
+#include "hyperex/session/rig_face.hpp"
 #include "symmetry_frames.hpp"
 #include "symmetry_picture.hpp"
 #include "symmetry_print.hpp"
@@ -35,7 +38,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct SymmetryOptions {
-  fs::path motion, out, excursions, picture, map, map_ply, landmarks;
+  fs::path motion, rig, out, excursions, picture, map, map_ply, landmarks;
   double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
   double end_s = std::numeric_limits<double>::infinity();
   std::string unit, jitter_mm = "auto";
@@ -74,6 +77,7 @@ session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::
       return {*of_run, true,
               fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
                           1e3 * *of_run)};
+    if (!options.rig.empty()) return {0, true, "the points of a rig are exact"};
     return session::recorded_jitter(steady);
   }
   return {1e-3 * *stated, true,
@@ -92,19 +96,26 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
         jitter.how);
 }
 
-motion::Motion without_head(const motion::Motion& motion, const SymmetryOptions& options) {
-  if (options.keep_head) return motion;
+motion::StabilisedMotion without_head(const motion::Motion& motion,
+                                      const SymmetryOptions& options) {
+  const motion::StabilisedMotion kept{.motion = motion,
+                                      .pose_points = {},
+                                      .shift_uncertainty_m = {},
+                                      .turn_uncertainty_rad = {},
+                                      .poses = {}};
+  if (options.keep_head) return kept;
+  if (!options.rig.empty()) return motion::with_still_head(motion);
   if (!options.rigid_points.empty())
-    return motion::stabilise(motion, {.rigid_points = options.rigid_points}).motion;
+    return motion::stabilise(motion, {.rigid_points = options.rigid_points});
   try {
-    return motion::stabilise(motion).motion;
+    return motion::stabilise(motion);
   } catch (const motion::OptionError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: "
               << error.sentence("--rigid-points") << '\n';
-    return motion;
+    return kept;
   } catch (const InputError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
-    return motion;
+    return kept;
   }
 }
 
@@ -143,7 +154,7 @@ void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
 
 /// Writes the requested files and prints the remaining results.
 void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all,
-            const session::RecordedJitter& jitter) {
+            const session::RecordedJitter& jitter, const motion::StabilisedMotion& steady) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   if (!options.picture.empty())
@@ -156,6 +167,7 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
   else if (all.curve.known())
     print_curve(all.curve);
   print_excursions(all.excursions);
+  print_head_uncertainty(steady);
   print_summary(all, jitter);
 }
 
@@ -175,7 +187,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, all, jitter);
+  report(options, all, jitter, {});
 }
 
 /// The files of a folder. Each of them may be a frame.
@@ -188,26 +200,24 @@ std::vector<fs::path> files_in(const fs::path& folder) {
 void check_outputs_of(const SymmetryOptions& options, const std::vector<fs::path>& inputs) {
   check_outputs({options.out, options.excursions, options.picture, options.map, options.map_ply},
                 inputs);
-  check_output_kinds({{options.out, {".csv"}, "time_s,xi_L,xi_R,S_ln"},
-                      {options.excursions, {".csv"}, "point,excursion_L_mm,"},
+  check_output_kinds({{options.out, {".csv"}, "time_s,xi_", {",S_ln,floor"}},
+                      {options.excursions, {".csv"}, "point,excursion_", {"excursion_ratio_R_L"}},
                       png_output(options.picture),
                       png_output(options.map),
                       {options.map_ply, {".ply"}, "ply", {" asymmetry_mm\n"}}});
 }
 
-/// The motion without the samples after `end_s`.
-motion::Motion until(motion::Motion motion, double end_s) {
-  const auto end = std::upper_bound(motion.time_s.begin(), motion.time_s.end(), end_s);
-  const auto kept = std::size_t(end - motion.time_s.begin());
-  if (kept < 2)
-    throw InputError(InputProblem{
-        motion.source, 0, "--end-s", fmt::format("{:g}", end_s),
-        fmt::format("at least the second sample's time, {:g} s",
-                    motion.time_s[std::min<std::size_t>(1, motion.time_s.size() - 1)])});
-  motion.time_s.resize(kept);
-  motion.positions.resize(kept);
-  if (!motion.lines.empty()) motion.lines.resize(kept);
-  if (!motion.head_pose.empty()) motion.head_pose.resize(kept);
+/// The recorded points, or those of the rig that the recorded weights move.
+motion::Motion read(const SymmetryOptions& options, const fs::path& file,
+                    std::optional<io::LengthUnit> unit) {
+  if (options.rig.empty()) return motion::read_motion(file, unit);
+  const expression::FaceModel rig =
+      session::rig_face(options.rig, KeptResults(user_cache_folder()));
+  const expression::BlendShapes shapes = expression::read_arkit(file);
+  std::vector<std::string> notes = shapes.notes;
+  notes.insert(notes.end(), shapes.misspelt.begin(), shapes.misspelt.end());
+  motion::Motion motion = expression::motion_of(shapes, rig, notes);
+  for (const std::string& note : notes) std::cerr << note << '\n';
   return motion;
 }
 
@@ -226,18 +236,19 @@ void run(const SymmetryOptions& options) {
     run_folder = file;
     file /= "motion.csv";
   }
-  check_outputs_of(options, {file});
+  check_outputs_of(options, {file, options.rig});
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
-  const motion::MendedMotion mended =
-      motion::without_wild_samples(until(motion::read_motion(file, unit), options.end_s));
+  const motion::MendedMotion mended = motion::without_wild_samples(
+      motion::until(read(options, file, unit), options.end_s, "--end-s"));
   const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
   // Before a reading that is far off spoils the head's pose.
   motion::check_reach_beside_head(motion);
-  const motion::Motion steady = without_head(motion, options);
+  const motion::StabilisedMotion stabilised = without_head(motion, options);
+  const motion::Motion& steady = stabilised.motion;
   if (!steady.head_pose.empty()) motion::check_reach(steady);
   for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
                               session::exchanged_warning(motion, session::average_face()),
@@ -248,7 +259,21 @@ void run(const SymmetryOptions& options) {
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
-  report(options, all, jitter);
+  metrics::add_pose_floors(all.excursions, metrics::pose_floors_mm(steady, stabilised.poses));
+  report(options, all, jitter, stabilised);
+}
+
+/// Options that concern a folder of surfaces.
+void add_surface_options(CLI::App& command, SymmetryOptions& options) {
+  command.add_option("--map", options.map,
+                     "For surfaces: draw the frame of largest asymmetry (PNG) here");
+  command.add_option("--map-ply", options.map_ply,
+                     "For surfaces: write that frame with the attribute asymmetry_mm (PLY) here");
+  command.add_option("--landmarks", options.landmarks,
+                     "For surfaces: landmarks of the first (JSON)");
+  command.add_option("--rate-hz", options.rate_hz, "For surfaces: frames per second")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str();
 }
 
 }  // namespace
@@ -258,7 +283,7 @@ void add_symmetry(CLI::App& program) {
   CLI::App* command = program.add_subcommand(
       "symmetry",
       "Symmetry of a motion: the relative change of the distances from each mouth corner to its "
-      "side's eye, lid, nose wing and lip (xi_L, xi_R), S = ln |xi_L - xi_R| with its noise floor, "
+      "side's eye, lid, nose wing and lip (xi_R, xi_L), S = ln |xi_L - xi_R| with its noise floor, "
       "how far and how fast the points of both sides move, and of surfaces a map of their "
       "asymmetry (docs/symmetry.md). No medical device.");
   command
@@ -266,19 +291,14 @@ void add_symmetry(CLI::App& program) {
                    "Named points over time, CSV or TRC; a run's folder; or a folder of PLY or OBJ "
                    "files, one per frame, the first at rest")
       ->required();
+  command->add_option("--rig", options->rig,
+                      "A glTF or GLB file with morph targets of ARKit's names: MOTION has their "
+                      "weights over time (CSV), and the rig's landmarks are measured");
   command->add_option("--out", options->out, "Write the curves (CSV) here");
   command->add_option("--excursions", options->excursions,
                       "Write one row per pair of points (CSV) here");
   command->add_option("--picture", options->picture, "Write a plot (PNG) here");
-  command->add_option("--map", options->map,
-                      "For surfaces: draw the frame of largest asymmetry (PNG) here");
-  command->add_option("--map-ply", options->map_ply,
-                      "For surfaces: write that frame with the attribute asymmetry_mm (PLY) here");
-  command->add_option("--landmarks", options->landmarks,
-                      "For surfaces: landmarks of the first (JSON)");
-  command->add_option("--rate-hz", options->rate_hz, "For surfaces: frames per second")
-      ->check(CLI::PositiveNumber)
-      ->capture_default_str();
+  add_surface_options(*command, *options);
   command
       ->add_option("--floor", options->floor,
                    "Least |xi_L - xi_R| that is resolved; S stops at its logarithm")
@@ -309,8 +329,8 @@ void add_symmetry(CLI::App& program) {
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
   command->footer(
-      "Example:\n  hyperex symmetry recording.csv --out symmetry.csv --picture "
-      "symmetry.png");
+      "Examples:\n  hyperex symmetry recording.csv --out symmetry.csv --picture symmetry.png\n"
+      "  hyperex symmetry weights.csv --rig me_rig.glb");
   command->callback([options] { run(*options); });
 }
 

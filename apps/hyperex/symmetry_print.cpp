@@ -4,8 +4,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <iostream>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -26,6 +29,25 @@ std::string undecided_note(const metrics::PairExcursion& p) {
   if (p.peak_speed_undecided) figures.push_back("speed");
   if (p.speed_correlation_undecided) figures.push_back("correlation");
   return figures.empty() ? "" : fmt::format("  undecided: {}", fmt::join(figures, ", "));
+}
+
+/// What a clinician reads first: corners of the mouth, eyes, brows; last the outline of the jaw.
+int reading_order(const metrics::PairExcursion& pair) {
+  const std::string words = face::point_words(pair.name);
+  constexpr std::array<const char*, 9> first_words = {"corner of the mouth",
+                                                      "eyelid",
+                                                      "corner of the eye",
+                                                      "brow",
+                                                      "lip",
+                                                      "nostril",
+                                                      "nose",
+                                                      "cheek",
+                                                      "of the jaw"};
+  constexpr int kOthers = 8;  // before the jaw
+  for (std::size_t i = 0; i < first_words.size(); ++i)
+    if (words.find(first_words[i]) != std::string::npos)
+      return int(i) < kOthers ? int(i) : kOthers + 1;
+  return kOthers;
 }
 
 }  // namespace
@@ -52,7 +74,9 @@ void print_excursions(const metrics::Excursions& excursions) {
                            "peak speed (mm/s)  ", "correlation");
   std::cout << fmt::format("{:<43} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>12}\n", "point",
                            "R", "L", "R/L", "R", "L", "R/L", "of speeds");
-  for (const metrics::PairExcursion& p : excursions.pairs)
+  std::vector<metrics::PairExcursion> pairs = excursions.pairs;
+  std::ranges::stable_sort(pairs, {}, reading_order);
+  for (const metrics::PairExcursion& p : pairs)
     std::cout << fmt::format("{:<43} {} {} {} {} {} {}   {}{}\n", face::point_words(p.name),
                              cell(p.right_side.excursion_mm, 2), cell(p.left_side.excursion_mm, 2),
                              cell(p.excursion_ratio, 3), cell(p.right_side.peak_speed_mm_s, 1),
@@ -60,9 +84,18 @@ void print_excursions(const metrics::Excursions& excursions) {
                              cell(p.speed_correlation, 3), undecided_note(p));
   if (excursions.lowpass_hz > 0)
     std::cout << fmt::format(
-        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what "
-        "jitter alone makes\n",
+        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter and, for "
+        "excursions, the head's pose make\n",
         excursions.lowpass_hz);
+}
+
+void print_head_uncertainty(const motion::StabilisedMotion& steady) {
+  if (steady.shift_uncertainty_m.empty()) return;
+  std::cout << fmt::format(
+      "head's pose: uncertain by up to {:.1f} mm and {:.1f} degrees (95 %): differences of "
+      "excursions below what this makes are undecided\n",
+      1e3 * std::ranges::max(steady.shift_uncertainty_m),
+      std::ranges::max(steady.turn_uncertainty_rad) * 180 / std::numbers::pi);
 }
 
 void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {

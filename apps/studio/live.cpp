@@ -81,9 +81,9 @@ void Live::run() {
         const std::lock_guard lock(mutex_);
         status_ = status;
       }
-      if (Clock::now() < told_ + kTellEach) return;
-      told_ = Clock::now();
-      tell();
+      if (Clock::now() < status_sent_ + kTellEach) return;
+      status_sent_ = Clock::now();
+      send_status();
     };
     tracking::track_live(*setup_.source, expression::canonical_model(), options, live);
   } catch (const std::exception& error) {
@@ -102,7 +102,7 @@ void Live::run() {
     const std::lock_guard lock(mutex_);
     ended_ = true;
   }
-  tell();
+  send_status();
   changed_.notify_all();
 }
 
@@ -287,7 +287,7 @@ void Live::send_take() {
   send_(event.dump(), false, "take");
 }
 
-void Live::tell() {
+void Live::send_status() {
   json event;
   {
     const std::lock_guard lock(mutex_);

@@ -67,7 +67,7 @@ class Live {
   /// The part of the last take from `from_s` to `to_s` as a scene's motion. Throws InputError where
   /// there is none.
   motion::Motion take(double from_s, double to_s) const;
-  void tell();
+  void send_status();
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -93,7 +93,7 @@ class Live {
   const std::vector<std::string> names_;
   std::atomic<bool> stopping_{false}, ended_{false};
 
-  Clock::time_point told_{};  // time of the last event live; tracker's thread only
+  Clock::time_point status_sent_{};  // time of the last event live; tracker's thread only
   // Used only by the thread that re-enacts:
   std::optional<LiveMotion> motion_;
   std::optional<simulate::Simulator> simulator_;

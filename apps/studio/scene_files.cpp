@@ -138,15 +138,42 @@ std::string with_uploads(const std::string& text, const fs::path& uploads) {
   return with_paths(text, taken);
 }
 
+namespace {
+
+/// The folder in a zip that holds a recording, by the zip's directory alone.
+fs::path recording_in(const fs::path& zip, const io::UnzipLimits& limits) {
+  constexpr int kDeepest = 3;  // of the folder
+  const std::vector<fs::path> files = io::files_in_zip(zip, limits);
+  const auto depth = [](const fs::path& path) { return std::distance(path.begin(), path.end()); };
+  const fs::path* list = nullptr;
+  for (const fs::path& file : files)
+    if (file.filename() == "rgb.txt" && depth(file) <= kDeepest + 1 &&
+        (!list || depth(file) < depth(*list)))
+      list = &file;
+  if (!list)
+    throw InputError(zip.filename(),
+                     "holds no recording: expected a folder with rgb.txt and its pictures");
+  const fs::path folder = list->parent_path(), camera = folder / "camera.toml";
+  if (std::find(files.begin(), files.end(), camera) == files.end())
+    throw InputError(zip.filename() / camera,
+                     "missing: expected the camera's file beside rgb.txt (docs/tracking.md)");
+  return folder;
+}
+
+}  // namespace
+
 fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
   constexpr std::uint64_t kMost = std::uint64_t(4) << 30U;  // bytes of all uploads, unpacked
-  constexpr int kDeepest = 2;                               // of the folder in the zip
+  // Pictures hardly shrink in a zip: what grows by more than this is no recording. A bomb of a
+  // megabyte grows a thousandfold.
+  constexpr std::uint64_t kMostGrowth = 10, kMostLists = std::uint64_t(16) << 20U;
   std::uint64_t used = 0;
   for (const fs::directory_entry& one : fs::recursive_directory_iterator(uploads))
     if (one.is_regular_file()) used += one.file_size();
   const fs::path all = uploads / (".unpacked-" + zip.filename().string());
   io::UnzipLimits limits;
-  limits.most_bytes = kMost - std::min(kMost, used);
+  limits.most_bytes = std::min(kMost - std::min(kMost, used),
+                               kMostGrowth * std::uint64_t(fs::file_size(zip)) + kMostLists);
   const auto remove_all = [](const fs::path& path) {
     std::error_code ignored;
     fs::remove_all(path, ignored);
@@ -161,21 +188,13 @@ fs::path unpacked_recording(const fs::path& zip, const fs::path& uploads) {
       remove(zip);
     }
   } const removed{remove_all, all, zip};
+  const fs::path inside = recording_in(zip, limits);
   io::unzip(zip, all, limits);
-  std::vector<fs::path> found;
-  if (fs::exists(all / "rgb.txt")) found.push_back(all);
-  for (fs::recursive_directory_iterator it(all), end; it != end && found.empty(); ++it) {
-    if (it.depth() >= kDeepest) it.disable_recursion_pending();
-    if (it->is_directory() && fs::exists(it->path() / "rgb.txt")) found.push_back(it->path());
-  }
-  if (found.empty())
-    throw InputError(zip.filename(),
-                     "holds no recording: expected a folder with rgb.txt and its pictures");
-  const std::string own = found[0].filename().string();
-  const std::string name = found[0] != all && is_upload_name(own) ? own : zip.stem().string();
+  const std::string own = inside.filename().string();
+  const std::string name = is_upload_name(own) ? own : zip.stem().string();
   fs::path folder = uploads / name;
   for (int i = 2; fs::exists(folder); ++i) folder = uploads / fmt::format("{}-{}", name, i);
-  fs::rename(found[0], folder);
+  fs::rename(inside.empty() ? all : all / inside, folder);
   try {
     capture::open_tum_folder(folder);  // its error states what is missing
   } catch (...) {

@@ -75,7 +75,7 @@ void Session::answer(const Request& request) {
   send_(out.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
   if (request.name != "hello") return;
   if (face_) send_scene();
-  if (live_) live_->tell();
+  if (live_) live_->send_status();
 }
 
 OpenFace& Session::require_face() {

@@ -27,7 +27,7 @@ void Session::end_live() {
   if (!gone) return;
   gone->stop();
   gone->wait();
-  gone->tell();
+  gone->send_status();
 }
 
 void Session::drawn(std::int64_t frame) {
@@ -96,7 +96,7 @@ json Session::live_take(const json& fields) {
   motion::write_motion_csv(file, take);
   std::string text = scene::with_value(now_.text, "motion.file", file.string());
   // These keys belong to the previous motion.
-  for (const char* key : {"recording", "arkit", "openface", "candide", "unit", "mirrored",
+  for (const char* key : {"recording", "arkit", "openface", "candide", "rig", "unit", "mirrored",
                           "rigid_points", "rest_s", "time_scale"})
     text = scene::with_value(text, fmt::format("motion.{}", key), nullptr);
   text = scene::with_value(text, "time.end_s", nullptr);

@@ -3,6 +3,8 @@
 
     blender --background --python examples/blender/play_weights.py -- RIG.glb WEIGHTS.csv OUT.blend
 
+OUT may also be .fbx or .glb: the animated face as Blender exports it, for Unreal, Unity, Maya and others.
+
 WEIGHTS.csv has a column time_s, time or timestamp (seconds), or Timecode as Live Link Face writes it, and columns named
 after blend shapes. Each mesh of the rig takes the shapes that it has: the skin all of them, the eyes those of gaze, the
 lower teeth those of the jaw.
@@ -46,7 +48,7 @@ def read_weights(file):
             except (TypeError, ValueError):
                 pass
             values.append(last)
-        weights[name[:1].lower() + name[1:]] = values
+        weights[name.lower()] = values
     return times, weights
 
 
@@ -54,7 +56,7 @@ def key_shapes(mesh, times, weights):
     """Animates the shapes that both have; how many."""
     animated = 0
     for key in mesh.shape_keys.key_blocks:
-        values = weights.get(key.name)
+        values = weights.get(key.name.lower())  # jawOpen, JawOpen
         if values is None or not any(values):
             continue
         curve = mesh.shape_keys.animation_data_create()
@@ -68,7 +70,24 @@ def key_shapes(mesh, times, weights):
     return animated
 
 
+def save(out):
+    kind = os.path.splitext(out)[1].lower()
+    if kind == ".blend":
+        bpy.ops.wm.save_as_mainfile(filepath=out)
+    elif kind == ".fbx":
+        # As one animation of the scene; by its actions the exporter leaves shape keys out.
+        bpy.ops.export_scene.fbx(
+            filepath=out, path_mode="COPY", embed_textures=True, bake_anim_use_all_actions=False,
+            bake_anim_use_nla_strips=False)
+    elif kind == ".glb":
+        bpy.ops.export_scene.gltf(filepath=out)
+    else:
+        sys.exit(f"{out}: expected .blend, .fbx or .glb")
+
+
 def main(rig, recording, out):
+    if not os.path.isfile(rig):
+        sys.exit(f"{rig}: no such file")
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=rig)
     times, weights = read_weights(recording)
@@ -83,7 +102,7 @@ def main(rig, recording, out):
             print(f"{item.name}: {animated} shapes move")
     if moving == 0:
         sys.exit(f"{recording}: no column is named after a shape of {rig} with a weight other than 0")
-    bpy.ops.wm.save_as_mainfile(filepath=os.path.abspath(out))
+    save(os.path.abspath(out))
     print(f"{len(times)} samples over {times[-1]:.1f} s, written to {out}")
 
 

@@ -56,7 +56,7 @@ TEST_F(Program, TellsItsVersionAndHelp) {
   for (const char* command : {"compare", "symmetry"}) {
     const Outcome help = call(std::string(command) + " --help");
     EXPECT_EQ(help.status, 0);
-    EXPECT_THAT(help.out, HasSubstr(std::string("Example:\n  hyperex ") + command));
+    EXPECT_THAT(help.out, testing::ContainsRegex(std::string("Examples?:\n  hyperex ") + command));
   }
 }
 
@@ -214,7 +214,7 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   const Outcome found =
       call("symmetry '" + motion.string() + "' --out s.csv --picture s.png --floor 1e-4");
   ASSERT_EQ(found.status, 0) << found.err;
-  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_L,xi_R,S_ln,floor,S_floor,"));
+  EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_R,xi_L,S_ln,floor,S_floor,"));
   EXPECT_TRUE(fs::exists(in("s.png")));
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }
@@ -231,6 +231,23 @@ TEST_F(Program, SymmetryLooksAtTheFirstMovementAlone) {
   EXPECT_THAT(part.out, testing::Not(HasSubstr("\n    0.2333 ")));
   EXPECT_THAT(call("symmetry " + motion + " --end-s 0.001").err,
               HasSubstr("--end-s = 0.001: expected at least the second sample's time, "));
+}
+
+/// Corners of the mouth, eyes, brows, and the jaw last; then the pose, which none of them includes.
+TEST_F(Program, SymmetryPrintsWhatIsReadFirst) {
+  write_good_inputs(in(""));
+  const Outcome found = call("symmetry motion.csv");
+  ASSERT_EQ(found.status, 0) << found.err;
+  std::size_t before = 0;
+  for (const char* words :
+       {"\npoint ", "\ncorner of the mouth", "eyelid", "\nouter end of the brow",
+        "\noutline of the jaw 1", "\nhead's pose: uncertain by up to "}) {
+    const std::size_t at = found.out.find(words);
+    ASSERT_NE(at, std::string::npos) << words << '\n' << found.out;
+    EXPECT_GT(at, before) << words << '\n' << found.out;
+    before = at;
+  }
+  EXPECT_THAT(call("symmetry motion.csv --keep-head").out, testing::Not(HasSubstr("head's pose")));
 }
 
 TEST_F(Program, SymmetryTakesTheHeadOutByNamedPoints) {

@@ -43,9 +43,9 @@ TEST_F(Interrupted, RunLeavesNothing) {
   const auto before = names_in(in(""));
   for (const int signal : {SIGINT, SIGTERM, SIGQUIT}) {
     EXPECT_EQ(status_after(signal), 128 + signal);
-    const auto told = problems_in(read_file(in("err.txt")));
-    ASSERT_EQ(told.size(), 1u);
-    EXPECT_THAT(told[0], testing::HasSubstr("interrupted"));
+    const auto reported = problems_in(read_file(in("err.txt")));
+    ASSERT_EQ(reported.size(), 1u);
+    EXPECT_THAT(reported[0], testing::HasSubstr("interrupted"));
     fs::remove(in("err.txt"));
     EXPECT_EQ(names_in(in("")), before);
   }

@@ -9,6 +9,9 @@
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/face_session.hpp"
+#include "support/note_matchers.hpp"
 
 namespace hyperex {
 namespace {
@@ -71,11 +74,11 @@ TEST_F(LandmarksCommand, ASceneWithoutLandmarksHasThemFound) {
   replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("not checked: whether they are found"));
+  EXPECT_THAT(session::check(scene::read_scene(in("scene.toml"))),
+              testing::Contains(test::is_note("landmarks.not_searched")));
   const Outcome run = call("run scene.toml --out out");
   EXPECT_EQ(run.status, 0) << run.err;
-  EXPECT_THAT(read_file(in("out/summary.json")),
-              HasSubstr("the scene names no landmarks: 92 were found on the scan"));
+  EXPECT_THAT(text_of("landmarks.found"), HasSubstr("92"));
 }
 
 TEST_F(LandmarksCommand, AMeshWithoutLandmarksHasThemFound) {

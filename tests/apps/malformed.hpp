@@ -21,7 +21,7 @@ using In = std::function<std::filesystem::path(const std::string&)>;
 struct Fault {
   std::string name;
   std::function<void(const In&)> spoil;
-  std::vector<std::string> told;  ///< texts that the line must contain
+  std::vector<std::string> reported;  ///< texts that the line must contain
   std::string arguments = "run scene.toml --out out";
   std::string before = "true";
   int status = 2;
@@ -66,7 +66,7 @@ class Malformed : public GoodInputs, public testing::WithParamInterface<Fault> {
     const auto problems = problems_in(found.err);
     ASSERT_EQ(problems.size(), 1u) << found.err;
     std::cout << "  " << problems[0] << '\n';
-    for (const auto& word : fault.told) EXPECT_THAT(problems[0], testing::HasSubstr(word));
+    for (const auto& word : fault.reported) EXPECT_THAT(problems[0], testing::HasSubstr(word));
     // Nothing follows it.
     EXPECT_THAT(found.err, testing::EndsWith(problems[0] + "\n"));
     EXPECT_EQ(names_in(in("")), before);

@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `hyperex new`: from a scan and a recording to a scene that runs.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+
+#include <algorithm>
+#include <utility>
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/motion/read_motion.hpp"
 
 namespace hyperex {
 namespace {
@@ -48,6 +54,32 @@ TEST_F(NewCommand, NamesTheStillPointsOfAFileThatHasItsOwn) {
   const Outcome aligned = call("check me.toml --set scan.landmarks=face_landmarks.json");
   EXPECT_EQ(aligned.status, 0) << aligned.err;
   EXPECT_THAT(aligned.out, HasSubstr("aligned by 7 common points"));
+}
+
+/// Weights of a blink alone, through a new scene and a run, to closed lids.
+TEST_F(NewCommand, WeightsOfABlinkCloseTheLids) {
+  std::string weights = "time_s,eyeBlinkLeft,eyeBlinkRight\n";
+  for (int k = 0; k <= 15; ++k) {
+    const double weight = 0.99 * std::min(1.0, k / 12.0);
+    weights += fmt::format("{0:.4f},{1:.4f},{1:.4f}\n", k / 30.0, weight);
+  }
+  put(in("blink.csv"), weights);
+  const Outcome made = call("new face.ply blink.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr("arkit = \"blink.csv\""));
+  const Outcome run = call(
+      "run me.toml --out out --set scan.landmarks=face_landmarks.json --set output.report=false "
+      "--set output.glb=false --set output.vtu=false");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const motion::Motion moved = motion::read_motion(in("out/motion.csv"));
+  const auto aperture_mm = [&](const Points& sample, int upper, int lower) {
+    const int up = moved.index_of(face::ibug(upper)), down = moved.index_of(face::ibug(lower));
+    return 1e3 * (sample.row(up) - sample.row(down)).norm();
+  };
+  for (const auto& [upper, lower] : {std::pair{37, 41}, {38, 40}, {43, 47}, {44, 46}}) {
+    EXPECT_GT(aperture_mm(moved.positions.front(), upper, lower), 4) << upper;
+    EXPECT_LT(aperture_mm(moved.positions.back(), upper, lower), 1) << upper;
+  }
 }
 
 TEST_F(NewCommand, RefusesANameThatASceneCannotHoldInOneLine) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "hyperex/core/files.hpp"
@@ -44,6 +45,18 @@ class ProgramTest : public testing::Test {
 
   /// A path in the working folder of the program.
   std::filesystem::path in(const std::string& name) const { return folder_ / "in" / name; }
+
+  /// Of a run with `--out out`.
+  nlohmann::json summary() const {
+    return nlohmann::json::parse(read_file(in("out/summary.json")));
+  }
+  /// The sentence of a note of that run; empty where there is none.
+  std::string text_of(const std::string& id) const {
+    const auto remarks = summary()["remarks"];
+    for (const auto& remark : remarks)
+      if (remark["id"] == id) return remark["text"];
+    return "";
+  }
 
  private:
   const TestFolder folder_;

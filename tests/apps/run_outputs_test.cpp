@@ -64,6 +64,28 @@ TEST_F(RunOutputs, NameNoFolderOfThisMachine) {
   }
 }
 
+/// docs/outputs.md: right, then left, in every table; points in motion.csv stand by name.
+TEST_F(RunOutputs, TheRightSideComesFirst) {
+  run("out", "--set output.report=false --set output.vtu=false --set output.glb=false");
+  int pairs = 0;
+  for (const fs::path& file : files_in(in("out"))) {
+    if (file.extension() != ".csv" || file.filename() == "motion.csv") continue;
+    const std::string text = read_file(file);
+    const std::string head = "," + text.substr(0, text.find('\n')) + ",";
+    const std::regex left(",([A-Za-z0-9_]*_)L(_[A-Za-z0-9_]*)?(?=,)");
+    for (std::sregex_iterator it(head.begin(), head.end(), left), end; it != end; ++it) {
+      if ((*it)[1].str().ends_with("ratio_R_")) continue;
+      const std::string right = "," + (*it)[1].str() + "R" + (*it)[2].str() + ",";
+      EXPECT_LT(head.find(right), std::size_t(it->position())) << file << ": " << it->str();
+      ++pairs;
+    }
+    if (head.find(",side,") != std::string::npos) {
+      EXPECT_LT(text.find(",R,"), text.find(",L,")) << file;
+    }
+  }
+  EXPECT_GT(pairs, 20) << "columns of curves, excursions, variants and muscles";
+}
+
 TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {
   run("out", "--set time.frame_rate_hz=20 --set output.vtu_every=2 --set output.variants_vtu=true");
   fs::rename(in("out"), in("elsewhere"));
@@ -113,6 +135,10 @@ TEST_F(RunOutputs, AreStatedBeforeAndBounded) {
     EXPECT_THAT(refused.err, testing::HasSubstr("output.most_gb = 0.1: expected "));
     EXPECT_FALSE(fs::exists(in("o")));
   }
+  // Before meshing, which alone would take minutes here.
+  const Outcome fine = call("run x.toml --out o --set mesh.element_size_mm=0.5", "ulimit -t 20");
+  EXPECT_EQ(fine.status, 2) << fine.err;
+  EXPECT_THAT(fine.err, testing::HasSubstr("output.most_"));
   const Outcome run = call("run x.toml --out o --no-variants --set time.start_s=1");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_FALSE(fs::exists(in("o/variants")));

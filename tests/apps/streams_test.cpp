@@ -28,9 +28,9 @@ class FullOutput : public GoodInputs, public testing::WithParamInterface<const c
 TEST_P(FullOutput, IsToldAndIsNoSuccess) {
   const auto before = names_in(in(""));
   EXPECT_EQ(shell("$HYPEREX " + std::string(GetParam()) + " >/dev/full 2>err.txt"), 1);
-  const auto told = problems_in(read_file(in("err.txt")));
-  ASSERT_EQ(told.size(), 1u);
-  EXPECT_THAT(told[0], HasSubstr("standard output: the results could not be printed ("));
+  const auto reported = problems_in(read_file(in("err.txt")));
+  ASSERT_EQ(reported.size(), 1u);
+  EXPECT_THAT(reported[0], HasSubstr("standard output: the results could not be printed ("));
   fs::remove(in("err.txt"));
   EXPECT_EQ(names_in(in("")), before);
 }

@@ -59,7 +59,7 @@ TEST_F(Tissue, AStiffCheekMovesMoreEvenlyAndLessTowardsTheJaw) {
   EXPECT_LT(near(stiff, at, right, radius_m).deviation,
             0.85 * near(same, at, right, radius_m).deviation);
   EXPECT_NEAR(near(stiff, at, left, radius_m).deviation / near(same, at, left, radius_m).deviation,
-              1, 0.015);
+              1, 0.025);
   // Below it, where the jaw pulls, the skin moves less than on the other side.
   const Vec3 below = 0.5 * (right + face.landmarks.at("ibug68_5"));
   const Vec3 mirrored(-below.x(), below.y(), below.z());

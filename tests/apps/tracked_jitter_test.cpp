@@ -65,11 +65,11 @@ TEST_P(TrackedJitter, IsEstimatedFromTheFileAlone) {
   EXPECT_NEAR(estimate_m / true_m, 1, 0.15);
   const Outcome run = call("run run.toml --out out");
   ASSERT_EQ(run.status, 0) << run.err;
-  const std::string told = "estimated from their fourth differences in time: ";
-  const auto at = run.err.find(told);
+  const std::string reported = "estimated from their fourth differences in time: ";
+  const auto at = run.err.find(reported);
   ASSERT_NE(at, std::string::npos) << run.err;
   const double rounding_mm = 0.005;
-  EXPECT_NEAR(std::stod(run.err.substr(at + told.size())), 1e3 * true_m,
+  EXPECT_NEAR(std::stod(run.err.substr(at + reported.size())), 1e3 * true_m,
               0.15e3 * true_m + rounding_mm);
 }
 

@@ -53,6 +53,20 @@ def run_study(file):
         check(float(row["max_displacement_mm"]) > 1, f"nothing moves in {row}")
 
 
+def run_visits(file):
+    """Its recordings are the demo's motions."""
+    call("run", "examples/demo.toml", "--out", "out/demo",
+         *[word for one in SHORT for word in ("--set", one)])
+    call("visits", file, "--out", "out/visits.html", "--table", "out/visits.csv")
+    with open(work / "out/visits.csv") as table:
+        rows = {(row["visit"], row["measure"], row["side"]): row for row in csv.DictReader(table)}
+    right = rows["2026-06-01", "corner_excursion", "R"]
+    left = rows["2026-06-01", "corner_excursion", "L"]
+    check(float(right["change"]) < -1, f"the right corner changes by {right['change']} mm")
+    check(right["beyond"] == "yes", f"beyond repetition: {right['beyond']}")
+    check(left["beyond"] == "no", f"the left corner's change counts as {left['beyond']}")
+
+
 def run_scene(file):
     call("check", file)
     settings = [] if full else SHORT
@@ -81,4 +95,4 @@ if name == "--prepare":
     call("sample", "out/sample")
 else:
     file = pathlib.Path("examples") / f"{name}.toml"
-    (run_study if name == "study" else run_scene)(file)
+    {"study": run_study, "visits": run_visits}.get(name, run_scene)(file)

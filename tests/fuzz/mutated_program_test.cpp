@@ -7,6 +7,8 @@
 #include <fstream>
 #include <map>
 #include <set>
+#include <string>
+#include <vector>
 
 #include "apps/program.hpp"
 #include "fuzz/mutate.hpp"
@@ -36,9 +38,13 @@ class MutatedInProgram : public ProgramTest {
 
   /// `name`: where the input goes; `command` reads it and, if at all, writes out.csv.
   void try_reader(const std::string& format, const std::string& name, const std::string& command) {
+    try_seeds(format, reader(format).seeds, name, command);
+  }
+  void try_seeds(const std::string& format, const std::vector<std::string>& seeds,
+                 const std::string& name, const std::string& command) {
     for (std::uint64_t number = 0; number < program_mutations(); ++number) {
       // Others than the readers' own test takes first.
-      put(name, mutated(reader(format).seeds, 1000000 + number));
+      put(name, mutated(seeds, 1000000 + number));
       const std::set<std::string> before = files();
       const Outcome outcome = call(command, "ulimit -t 30");
       const std::string which = format + " " + std::to_string(number) + ": " + outcome.err;
@@ -74,6 +80,24 @@ TEST_F(MutatedInProgram, EndsInOrder) {
   try_reader("picture", "rec/rgb/0.png", "check base.toml --set motion.recording=rec");
   try_reader("lists", "rec/rgb.txt", "check base.toml --set motion.recording=rec");
   try_reader("camera", "rec/camera.toml", "check base.toml --set motion.recording=rec");
+  put("arkit.toml", "scan.file = \"embedded\"\nmotion.arkit = \"w.csv\"\n");
+  put("openface.toml", "scan.file = \"embedded\"\nmotion.openface = \"au.csv\"\n");
+  try_seeds("arkit",
+            {"time_s,eyeBlinkLeft,jawOpen,mouthSmileLeft\n0,0,0,0\n0.1,0.5,0.2,1e-1\n0.2,1,,0\n",
+             "Timecode,BlendShapeCount,EyeBlinkLeft,JawOpen\n16:07:12:05.613,61,0,0.1\n"
+             "16:07:12:06.613,61,0.5,0.2\n"},
+            "w.csv", "check arkit.toml");
+  try_seeds("openface",
+            {"frame, timestamp, confidence, success, AU01_r, AU12_r, AU25_r\n"
+             "1, 0, 0.96, 1, 0, 0, 0\n2, 0.083, 0.96, 1, 0.5, 1.2, 3\n3, 0.167, 0.9, 0, 1, 1, 1\n"},
+            "au.csv", "check openface.toml");
+  try_seeds("study",
+            {"title = \"s\"\nscene = \"base.toml\"\nout = \"swept\"\n[set]\n"
+             "mesh.element_size_mm = 7\n[grid]\ntissue.young_kpa = [50, 1e2]\n[[grid.cheeks]]\n"
+             "name = \"stiff\"\ntissue.region = [{ name = \"cheek_R\", young_factor = 10 }]\n"},
+            "s.toml", "sweep s.toml --list");
+  put("w.csv", "time_s,jawOpen\n0,0\n0.1,0.5\n0.2,1\n");
+  try_reader("candide", "in.wfm", "check arkit.toml --set motion.candide=in.wfm");
   rusage usage{};
   ::getrusage(RUSAGE_CHILDREN, &usage);
   EXPECT_LT(usage.ru_maxrss, 2L << 20);

@@ -12,6 +12,7 @@
 #include "hyperex/capture/tum_lists.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/candide.hpp"
+#include "hyperex/io/gltf_shapes.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -50,12 +51,17 @@ void read_picture(const fs::path& file) {
   if (!depth.fault.empty()) throw InputError(depth.fault);
 }
 
+void read_rig(const fs::path& file) {
+  io::read_gltf_shapes(file);
+}
+
 std::vector<Reader> all() {
   return {{"ply", "in.ply", read_scan, ply_seeds()},
           {"obj", "in.obj", read_scan, obj_seeds()},
           {"stl", "in.stl", read_scan, stl_seeds()},
           {"gltf", "in.gltf", read_scan, gltf_seeds()},
           {"glb", "in.glb", read_scan, glb_seeds()},
+          {"rig", "in.glb", read_rig, rig_seeds()},
           {"landmarks", "in.json", read_landmarks, landmark_seeds()},
           {"markups", "in.mrk.json", read_landmarks, markup_seeds()},
           {"csv", "in.csv", read_motion, csv_seeds()},

@@ -144,14 +144,33 @@ Seeds gltf_seeds() {
           gltf_json(R"({"byteLength":42,"uri":"beside.bin"})")};
 }
 
-Seeds glb_seeds() {
-  std::string json = gltf_json(R"({"byteLength":42})");
+/// The two parts of a binary glTF file.
+std::string glb_of(std::string json, std::string body) {
   json.resize((json.size() + 3) / 4 * 4, ' ');
-  std::string body = triangle_bytes();
-  body.resize(44, '\0');
+  body.resize((body.size() + 3) / 4 * 4, '\0');
   const auto word = [](std::size_t n) { return bytes_of(std::uint32_t(n)); };
-  return {"glTF" + word(2) + word(28 + json.size() + body.size()) + word(json.size()) + "JSON" +
-          json + word(body.size()) + std::string("BIN\0", 4) + body};
+  return "glTF" + word(2) + word(28 + json.size() + body.size()) + word(json.size()) + "JSON" +
+         json + word(body.size()) + std::string("BIN\0", 4) + body;
+}
+
+Seeds glb_seeds() {
+  return {glb_of(gltf_json(R"({"byteLength":42})"), triangle_bytes())};
+}
+
+/// The triangle with a sparse morph target and a landmark.
+Seeds rig_seeds() {
+  const std::string json =
+      R"({"asset":{"version":"2.0"},"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],"meshes":[{)"
+      R"("primitives":[{"attributes":{"POSITION":0},"indices":1,"targets":[{"POSITION":2},)"
+      R"({"POSITION":0}]}],"extras":{"targetNames":["jawOpen","mouthLeft"],)"
+      R"("landmarks_m":{"nasion":[0,0.1,0]}}}],"accessors":[)"
+      R"({"bufferView":0,"componentType":5126,"count":3,"type":"VEC3"},)"
+      R"({"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"},)"
+      R"({"componentType":5126,"count":3,"type":"VEC3","sparse":{"count":1,"indices":{)"
+      R"("bufferView":1,"byteOffset":2,"componentType":5123},"values":{"bufferView":0}}}],)"
+      R"("bufferViews":[{"buffer":0,"byteLength":36},{"buffer":0,"byteOffset":36,)"
+      R"("byteLength":6}],"buffers":[{"byteLength":42}]})";
+  return {glb_of(json, triangle_bytes())};
 }
 
 Seeds landmark_seeds() {

@@ -12,6 +12,7 @@ Seeds obj_seeds();
 Seeds stl_seeds();
 Seeds gltf_seeds();
 Seeds glb_seeds();
+Seeds rig_seeds();
 Seeds landmark_seeds();
 Seeds markup_seeds();
 Seeds csv_seeds();

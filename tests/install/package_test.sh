@@ -13,7 +13,7 @@ for component in program library dev; do
     program)
       "$prefix/bin/hyperex" --version > /dev/null
       [[ ! -e "$prefix/include" ]] || said "headers with the program"
-      # A user's copy, with the data that the examples' comments tell to make.
+      # A user's copy, with the data that the examples' comments say to make.
       copy=$(mktemp -d)
       trap 'rm -rf "$copy"' EXIT
       cp -r "$prefix/share/doc/hyperex/examples" "$copy/"

@@ -15,7 +15,7 @@ echo '#include "hyperex/run/run_scene.hpp"' >> "$work/src/hyperex/session/inputs
 said=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an upward include is not seen"; exit 1; }
 echo '#include "hyperex/hyperex.hpp"' >> "$work/src/hyperex/io/ply.cpp"
 said+=$("$1/tests/layout/includes_test.sh" "$work") && { echo "an include of everything is not seen"; exit 1; }
-grep -q 'src/hyperex/io/ply.cpp.*hyperex.hpp' <<< "$said" || { echo "an include of everything is not told"; exit 1; }
+grep -q 'src/hyperex/io/ply.cpp.*hyperex.hpp' <<< "$said" || { echo "an include of everything is not reported"; exit 1; }
 grep -q '^simulate/drive may include only: drive$' <<< "$said" || { echo "an upward include among parts is not reported"; exit 1; }
 grep -q 'src/hyperex/session/inputs.cpp' <<< "$said" || { echo "an include of run by session is not reported"; exit 1; }
 grep -q 'src/hyperex/io/scan.cpp' <<< "$said" && grep -q '^io may include only: core geometry io$' <<< "$said"

@@ -213,8 +213,8 @@ class Contact(unittest.TestCase):
     def test_lips(self):
         opening = hyperex.embedded_mouth_opening(face().landmarks, head_moves=False)
         shut = hyperex.Motion(opening.names, opening.time_s,
-                              2 * opening.positions_m[:1] - opening.positions_m)
-        simulator = small_simulator()  # shut farther than they are
+                              opening.positions_m[:1] + 0.6 * (opening.positions_m[:1] - opening.positions_m))
+        simulator = small_simulator()  # pressed farther than they are shut
         simulator.set_motion(hyperex.prepare_motion(shut, face().landmarks))
         passing = simulator.run().report
         simulator.set_options(hyperex.SimulationOptions(contact=hyperex.ContactOptions(lips=True)))

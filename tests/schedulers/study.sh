@@ -32,7 +32,7 @@ states() { cut -d, -f1,2 "$work/my study/out/study.csv" | tail -n +2 | tr '\n' '
 
 expect_two_of_three() {
   [[ "$(states)" == "first,finished second,finished third,failed " ]] || said "the table: $(states)"
-  grep -q 'third.*scar_points_mm' "$work/my study/out/study.csv" || said "the table does not tell why"
+  grep -q 'third.*scar_points_mm' "$work/my study/out/study.csv" || said "the table does not say why"
 }
 
 all_three="first,finished second,finished third,finished "

@@ -49,6 +49,12 @@ void time_in_milliseconds(const fs::path& folder) {
   });
 }
 
+void time_at_3_hz(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 10;
+  });
+}
+
 void hold_still(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (Points& sample : m.positions) sample = m.positions.front();
@@ -116,6 +122,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.mirror_unknown", true, "motion.file=\nmotion.recording=\"clip.mp4\"",
        write_video},
       {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
+      {"recording.coarse", true, "", time_at_3_hz},
       {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.jumps", true, "", let_a_marker_stay_away},
       {"recording.nothing_moves", true, "", hold_still},
@@ -131,6 +138,10 @@ const std::vector<NotedScene>& noted_scenes() {
        press_the_lips},
       {"tissue.inverted", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
        press_the_lips},
+      {"tissue.volume_changed", false,
+       "drive.by=\"displacement\"\nmotion.gain=4\ntissue.strain=\"finite\"\ntime.end_s=0.5",
+       press_the_lips},
+      {"drive.points_off", false, "drive.points=\"all\"\ntime.end_s=0.5", press_the_lips},
       {"output.glb_coarse", false,
        "output.glb=true\noutput.glb_tolerance_mm=0.01\noutput.glb_max_mb=0.1\ntime.end_s=0.5\n"
        "time.frame_rate_hz=60",
@@ -153,11 +164,9 @@ const std::vector<NotedScene>& noted_scenes() {
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
       {"contact.no_equilibrium", "none: no scene is known to cause it"},
-      {"drive.points_off", "SimulationOfAFace, points close to each other"},
       {"forces.found_anew", "MuscleSimulatorOfAFace, tissue changed without hold_load()"},
       {"solver.reduced_not_converged", "SimulationOfAFace, a basis that stops growing"},
       {"symmetry.plane_of_landmarks", "Midsagittal.ASurfaceOfOneSideLeavesItToTheLandmarks"},
-      {"tissue.volume_changed", "VolumeWarning.IsGivenFromAThreefoldChangeOn"},
   };
   return all;
 }

@@ -9,15 +9,16 @@ import { after, before, describe, test } from 'node:test';
 import { launch, openPage } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
 import { rarePage } from './made_up_page.mjs';
+import { madeUpVisits, visitsPage } from './made_up_visits.mjs';
 
-let browser, axe, rare;
+let browser, axe, rare, visits;
 before(async () => {
   axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
   browser = await launch();
 });
 after(async () => {
   await browser?.close();
-  if (rare) await rm(dirname(rare), { recursive: true });
+  for (const made of [rare, visits].filter((file) => file)) await rm(dirname(made), { recursive: true });
 });
 
 const files = process.env.PAGE
@@ -26,14 +27,16 @@ const files = process.env.PAGE
       async () => fixture('plain.html'),
       async () => (rare ??= await rarePage()),
       async () => fixture('tracking.html'),
+      async () => (visits ??= await visitsPage(madeUpVisits(5))),
     ];
 
 /** What readers may meet only after a press. */
 async function unfold(page) {
   const folded = page.locator('details:not([open]) > summary:visible');
   while ((await folded.count()) > 0) await folded.first().click();
-  for (const more of await page.locator('button[aria-expanded=false]:visible').all()) await more.click();
+  for (const more of await page.locator('button[aria-expanded=false]:not([aria-haspopup]):visible').all()) await more.click();
   await pressWhereShown(page, '#modes [data-mode=side-by-side]');
+  await pressWhereShown(page, '#show-overlays');
 }
 
 async function pressWhereShown(page, choice) {
@@ -58,7 +61,7 @@ for (const [i, find] of files.entries()) {
       ['dark', { colorScheme: 'dark' }],
       ['narrow', { viewport: { width: 390, height: 840 } }],
     ])
-      test(name, { skip: name === 'narrow' && i !== 1 && !process.env.PAGE }, async (t) => {
+      test(name, { skip: name === 'narrow' && ![1, 3].includes(i) && !process.env.PAGE }, async (t) => {
         const file = await find();
         const { page, complaints, close } = await openPage(browser, file, options);
         await page.evaluate(axe);

@@ -341,10 +341,10 @@ describe('figures that are rare', () => {
     assert.match(place[1], /^At the peak, \d\.\d{3} s, that vertex moves 16\.00 instead of 20\.00 mm\. The corner’s own figures are those above, under “Corners of the mouth”\.$/);
     assert.deepEqual(told.slice(0, 4).map((lines) => lines.filter((line) => !/vertex/.test(line))), [
       ['the scene without a variant'],
-      ['Young’s modulus 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced',
+      ['Stiffness 1,000 instead of 192.4 kPa', 'Solver: method direct instead of reduced',
         'Muscles of the right side at 30 %', 'Left muscles of the zygomatic branch at 0 %', 'Right zyg major at 125.5 %'],
-      ['Scar corner of the mouth (cheilion), right to alare R: width 8 mm, Young’s modulus × 20', 'Lips: viscosity 900 Pa s'],
-      ['Cheek L: Young’s modulus 80 kPa', 'Motion: gain 0.5 instead of 1'],
+      ['Scar corner of the mouth (cheilion), right to alare R: width 8 mm, stiffness × 20', 'Lips: viscosity 900 Pa s'],
+      ['Cheek L: stiffness 80 kPa', 'Motion: gain 0.5 instead of 1'],
     ]);
   });
 

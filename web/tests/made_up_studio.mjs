@@ -64,12 +64,14 @@ function replayOf(block, { faces, remarks }) {
     version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
     palette: { light: ['#147', '#a40'], dark: ['#8bf', '#fb8'], left: 0, right: 1, faces: [0, 1] },
     scan_vertices: side * side,
-    skin: { points: block.add('float32', points), triangles: block.add('int32', triangles) },
+    skin: { points: block.add('float32', points), triangles: block.add('int32', triangles), light: block.add('uint8', new Uint8Array(points.length / 3).fill(255)), fade: block.add('uint8', new Uint8Array(points.length / 3).fill(255)) },
     motion: { time_s: [0, 0.5, 1], peak_frame: 2, modes, weights, max_error_mm: 0, max_displacement_mm: 2 },
     landmarks: { names, time_s: [0, 0.5, 1], positions: landmarks(0.004) },
     driven: { names: ['cheilion_L'], points: [at[0]] }, held: [at[2]], lip_cut: [], symmetry: null,
     mirror: { normal: [1, 0, 0], vertices: block.add('int32', mirror), weights: block.add('uint8', new Uint8Array(mirror.length).fill(255)) },
-    point_words: {}, openings: [], eyeballs: [{ centre: [0.03, 0.03, 0.05], gaze: [0, 0, 1], radius_m: 0.012 }],
+    point_words: {}, openings: [], eyeballs: [{ centre: [0.03, 0.03, 0.05], gaze: [0, 0, 1], radius_m: 0.012, light: block.add('uint8', new Uint8Array(3).fill(255)) }],
+    // An eye of one triangle.
+    eye_model: { middle: [0, 0, 0], points: { step_m: 1, values: block.add('int16', new Int16Array([0, 0, 1, 1, 0, 0, 0, 1, 0])) }, triangles: block.add('int16', new Int16Array([0, 1, 2])), colours: block.add('uint8', new Uint8Array(9).fill(90)) },
     variants: faces.slice(1).map(({ name }) => ({
       name, changes: [], difference: { ...motionOf(block, { points }), max_error_mm: 0 },
       max_displacement_mm: 2, max_difference_mm: 1, max_difference_frame: 2, symmetry: null, landmarks: landmarks(0.0025), tissue: [],

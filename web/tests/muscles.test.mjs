@@ -83,7 +83,12 @@ describe('a report of a face that muscles drive', () => {
       await card(page).locator('select').selectOption('1');
       await shows(order[1]);
       const without = await look(page);
-      await page.locator('[data-overlay="muscles"]').check();
+      const tick = async () => {
+        await page.locator('#show-overlays').click();
+        await page.locator('[data-overlay="muscles"]').click();
+        await page.keyboard.press('Escape');
+      };
+      await tick();
       await page.waitForSelector('#face[data-at-rest="true"]');
       const shown = await look(page);
       assert.ok((await changedShare(without, shown)) > 0.0005, 'the lines show');
@@ -92,7 +97,7 @@ describe('a report of a face that muscles drive', () => {
         await card(page).locator('select').selectOption('0');
         await card(page).screenshot({ path: join(pictures, `muscle_card_${colorScheme}.png`) });
       }
-      await page.locator('[data-overlay="muscles"]').uncheck();
+      await tick();
       assert.equal(await tooWide(page), 0);
       assert.deepEqual(complaints, []);
       await close();

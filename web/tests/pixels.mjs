@@ -12,10 +12,13 @@ export const decode = (page, png) =>
     return context.getImageData(0, 0, image.width, image.height);
   }, png.toString('base64'));
 
+/** What lies over the picture, and is not the face. */
+const over = '.colour-key, .save-tools { visibility: hidden !important; }';
+
 /** The face, once it is drawn as finely as it will be. */
 export async function look(page) {
   await page.waitForSelector('#face[data-at-rest="true"]');
-  return decode(page, await page.locator('#face').screenshot());
+  return decode(page, await page.locator('#face').screenshot({ style: over }));
 }
 
 /** Share of pixels that differ, in a part of the picture: { left, right, top, bottom } from 0 to 1. */

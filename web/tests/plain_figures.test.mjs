@@ -86,7 +86,7 @@ test('a saved picture tells figures below the faces, with their limits, and no n
     assert.doesNotMatch(text, /±$/, 'a sign ends a line');
   }
   const all = written.map(({ text }) => text).join(' ');
-  assert.match(all, /Head’s pose uncertain by up to 2\.6 mm and 1\.8° \(95 %\); no ± includes this\./);
+  assert.match(all, /Head’s pose uncertain by up to 2\.6 mm and 1\.8° \(95 %\); “undecided” includes this\./);
   assert.match(all, /The map cannot show which side is weak\./);
   await close();
 });

@@ -88,11 +88,16 @@ for (const report of reports) {
       assert.ok(await changedShare(skin, turned) > 0.05);
       await page.getByRole('button', { name: 'Front' }).click();
       const boxes = page.locator('#overlays input');
+      const tick = async (i) => {
+        await page.locator('#show-overlays').click();
+        await boxes.nth(i).click();
+        await page.keyboard.press('Escape');
+      };
       for (let i = 0; i < (await boxes.count()); ++i) {
         const without = await look(page);
-        await boxes.nth(i).check();
+        await tick(i);
         assert.ok(await changedShare(without, await look(page)) > 1e-4, `overlay ${i} shows nothing`);
-        await boxes.nth(i).uncheck();
+        await tick(i);
       }
       await page.getByRole('button', { name: 'Displacement' }).click();
       // The page may have moved the view by a pixel since.

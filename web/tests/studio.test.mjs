@@ -9,7 +9,7 @@ import { createRequire } from 'node:module';
 import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, tooWide } from './browser.mjs';
-import { openStudio, program, run, startStudio } from './studio_server.mjs';
+import { askWhatIf, openStudio, placeOnFace, program, run, startStudio } from './studio_server.mjs';
 
 const skip = program() ? false : 'the program is not built';
 const axe = await readFile(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
@@ -48,10 +48,7 @@ async function pull(page, range, to, steps = 8) {
 
 /** A variant whose muscles of a side keep so many per cent of their strength. */
 async function weaker(page, side, percent) {
-  await page.click('#what-if');
-  await page.selectOption('.weaker select', `side_${side}`);
-  await page.fill('.weaker input', String(percent));
-  await page.click('.weaker .primary');
+  await askWhatIf(page, `${side === 'R' ? 'right' : 'left'} side ${percent}`);
   await page.waitForFunction((to) => document.getElementById('scene-text').textContent.includes(`side_${to[0]}" = ${to[1]}`), [side, percent / 100]);
   await settled(page);
 }
@@ -82,6 +79,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.click('#to-most');
     const most = await page.locator('#frame-label').innerText();
     await page.click('#to-peak');
+    await page.click('#tab-figures');
     await page.click('.seek-most');
     assert.equal(await page.locator('#frame-label').innerText(), most);
     assert.ok((await page.locator('.seek-most').innerText()).endsWith(`at ${/\d\.\d+ s$/.exec(most)[0]}`), most);
@@ -177,7 +175,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     await page.waitForFunction(() => /"young_factor" = 5/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     assert.match(await sceneText(page), /"name" = "cheek_R"/);
-    assert.match(await page.locator('#second-label').innerText(), /Cheek, right: Young’s modulus × 5/);
+    assert.match(await page.locator('#second-label').innerText(), /Cheek, right: stiffness × 5/);
     await page.locator('[data-key="tissue.region"] .back').click();
     await page.waitForFunction(() => !/young_factor/.test(document.getElementById('scene-text').textContent));
     await settled(page);
@@ -249,21 +247,19 @@ describe('the studio', { skip, concurrency: false }, () => {
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
-    await page.click('#what-if');
-    await page.selectOption('.weaker select', { label: 'Zygomaticus major, right' });
-    await page.fill('.weaker input', '40');
-    await page.click('.weaker .primary');
+    await askWhatIf(page, 'zygomaticus major, right 40');
     await page.waitForFunction(() => /zyg_major_R" = 0\.4/.test(document.getElementById('scene-text').textContent));
     await settled(page);
     assert.deepEqual(await faces(page), ['Base', 'zygomaticus major, right 40 %']);
-    assert.match(await page.locator('#whose').innerText(), /Its changes so far: Right zygomaticus major at 40 %/);
+    assert.match(await page.locator('#question-body').innerText(), /^right zygomaticus major\s+at/);
+    assert.equal(await page.getByRole('spinbutton', { name: 'Strength of right zygomaticus major, %' }).inputValue(), '40');
     await page.click('#undo');
     await page.click('#undo');
     await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 1);
     await settled(page);
 
     await page.click('#what-if');
-    await page.click('[data-preset=palsy_complete_L]');
+    await page.click('[data-choice=palsy_complete_L]');
     await page.waitForFunction(() => document.querySelectorAll('.tab-name').length === 2);
     await settled(page);
     assert.deepEqual(await faces(page), ['Base', 'palsy complete, left']);
@@ -299,12 +295,12 @@ describe('the studio', { skip, concurrency: false }, () => {
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#open-files');
     await page.getByRole('button', { name: 'Correct them' }).click();
     const names = await page.locator('.landmark-choice option').allInnerTexts();
     assert.ok(names.length > 60 && new Set(names).size === names.length, `${names.length} points, each once`);
     // Where the cheek of the embedded face lies at rest.
-    const { x, y, width, height } = await page.locator('#canvas-host').boundingBox();
-    const [cheekX, cheekY] = [x + 0.631 * width, y + 0.554 * height];
+    const [cheekX, cheekY] = await placeOnFace(page, 0.207, 0.554);
     const chosen = () => page.locator('.landmark-choice select').evaluate((select) => select.selectedOptions[0].text);
     await page.mouse.move(cheekX, cheekY);
     await page.mouse.down();
@@ -420,7 +416,7 @@ describe('the studio', { skip, concurrency: false }, () => {
         await page.click('#modes [data-mode=side-by-side]');
         assert.ok((await tooWide(page)) <= 0, `${colorScheme} ${name}`);
         await page.evaluate(axe);
-        for (const panel of ['muscles', 'tissue', 'scene']) {
+        for (const panel of ['muscles', 'tissue', 'figures', 'scene']) {
           await page.click(`#tab-${panel}`);
           const { violations, passes } = await page.evaluate(() => window.axe.run(document, { resultTypes: ['violations'] }));
           assert.ok(passes.length >= 12);

@@ -26,6 +26,7 @@ describe('the studio live', { skip, concurrency: false }, () => {
     const studio = await startStudio(['--device', `play:${recording}`]);
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#open-files');
     const panel = page.locator('#live-panel');
     await panel.locator('.choices button').click();
     await panel.getByRole('button', { name: 'Record a take' }).click();

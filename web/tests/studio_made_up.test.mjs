@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { launch } from './browser.mjs';
 import { openMadeUp } from './made_up_studio.mjs';
+import { askWhatIf } from './studio_server.mjs';
 
 const id = 'variant.muscle_hardly_used';
 const weak = (face) => 'frontal_med_R' in face.values['muscles.gain'];
@@ -95,13 +96,10 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
   test('what if: the slider of the strength that was changed comes into view, and the change reads as a sentence', async () => {
     const { page, complaints, close } = await openMadeUp(browser, () => []);
     await page.locator('#tab-scene').dispatchEvent('click');
-    await page.locator('#what-if').dispatchEvent('click');
-    await page.locator('.weaker select').selectOption('zyg_major_L');
-    await page.locator('.weaker input').fill('30');
-    await page.locator('.weaker .primary').dispatchEvent('click');
-    const slider = page.locator('[data-gain=zyg_major_L]');
+    await askWhatIf(page, 'zyg major, left 30');
+    const slider = page.locator('[data-question=zyg_major_L] input[type=range]');
     await slider.waitFor();
-    const [panel, own] = [await page.locator('#panels').boundingBox(), await slider.boundingBox()];
+    const [panel, own] = [await page.locator('#question-body').boundingBox(), await slider.boundingBox()];
     assert.ok(own.y >= panel.y && own.y + own.height <= panel.y + panel.height, `${own.y} is outside of ${panel.y} to ${panel.y + panel.height}`);
     await page.waitForFunction(() => document.querySelector('.corner-table tr[data-face="1"] small.change'));
     assert.equal(await page.locator('.corner-table tr[data-face="1"] td[data-side=left] small.change').textContent(), '3.0 mm less than base');

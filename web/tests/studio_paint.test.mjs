@@ -8,7 +8,7 @@ import { join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { build } from 'vite';
 import { launch, tooWide } from './browser.mjs';
-import { openStudio, program, run, startStudio } from './studio_server.mjs';
+import { openStudio, placeOnFace, program, run, startStudio } from './studio_server.mjs';
 
 /** Modules of the page, without a page. */
 async function moduleOf(name) {
@@ -130,7 +130,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
     await page.click('#tab-paint');
-    assert.match(await page.locator('#colour-bar').innerText(), /Stiffness \(modulus E\) kPa/);
+    assert.match(await page.locator('#colour-bar').innerText(), /Stiffness kPa/);
     const camera = () => page.evaluate(() => document.getElementById('face').dataset.frame);
     await stroke(page, [0.6, 0.55], [0.63, 0.62]);
     await untilPatches(page, 1);
@@ -261,7 +261,7 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
 
     // Stiffness is as it was; the muscles of a variant move the same mesh.
     await page.selectOption('#paint-what', 'tissue');
-    assert.match(await page.locator('#colour-bar').innerText(), /Stiffness \(modulus E\) kPa/);
+    assert.match(await page.locator('#colour-bar').innerText(), /Stiffness kPa/);
     assert.deepEqual(await page.locator('#paint-patch option').count(), 1);
     const shown = await page.locator('.corner-table tr[data-face="0"] td').evaluateAll((cells) => cells.slice(0, 2).map((cell) => [cell.dataset.side, Number(cell.dataset.mm)]));
     await page.click('#save-menu');
@@ -336,11 +336,11 @@ describe('painting in the studio', { skip: program() ? false : 'the program is n
     const studio = await startStudio();
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#open-files');
     await page.getByRole('button', { name: 'Correct them' }).click();
     const tools = page.locator('.landmark-tools');
     const press = (name) => tools.getByRole('button', { name, exact: true });
-    const { x, y, width, height } = await page.locator('#canvas-host').boundingBox();
-    const [cheekX, cheekY] = [x + 0.631 * width, y + 0.554 * height];
+    const [cheekX, cheekY] = await placeOnFace(page, 0.207, 0.554);
     assert.ok(await press('Undo').isDisabled());
     await page.mouse.move(cheekX, cheekY);
     await page.mouse.down();

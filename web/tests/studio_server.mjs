@@ -62,6 +62,20 @@ export async function startStudio(args = [], { port, folder: given } = {}) {
   };
 }
 
+/** A place of the embedded face, so many heights of the picture right of its middle and below its top: the face is as
+ *  high as the picture. */
+export async function placeOnFace(page, right, below) {
+  const { x, y, width, height } = await page.locator('#canvas-host').boundingBox();
+  return [x + width / 2 + right * height, y + below * height];
+}
+
+/** Another face beside base: what is typed after "What if …", "right side 70", and Enter. */
+export async function askWhatIf(page, typed) {
+  await page.click('#what-if');
+  await page.fill('.sheet:popover-open .chooser-find', typed);
+  await page.keyboard.press('Enter');
+}
+
 /** A page of the studio that remembers everything that should not happen; ready once the face is drawn. */
 export async function openStudio(browser, address, { ready = true, ...options } = {}) {
   const context = await browser.newContext({

@@ -6,6 +6,7 @@ import assert from 'node:assert/strict';
 import { basename, join, resolve } from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
+import { a4 } from './paper.mjs';
 import { fixture } from './fixtures.mjs';
 
 const files = process.env.TRACKING
@@ -208,7 +209,7 @@ for (const file of files) {
       await view.page.evaluate(() => window.dispatchEvent(new Event('beforeprint')));
       await view.page.waitForTimeout(100);
       const widths = await view.page.locator('.plot-card canvas').evaluateAll((all) => all.map((c) => c.getBoundingClientRect().width));
-      assert.ok(Math.max(...widths) <= 660 && Math.min(...widths) > 500, String(widths));
+      assert.ok(Math.max(...widths) <= a4.width && Math.min(...widths) > 0.95 * a4.width, String(widths));
       const paper = await view.page.evaluate(() => getComputedStyle(document.documentElement).getPropertyValue('--card').trim());
       assert.equal(paper, '#fff');
       await view.page.evaluate(() => window.dispatchEvent(new Event('afterprint')));

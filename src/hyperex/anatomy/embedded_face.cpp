@@ -6,6 +6,7 @@
 #include <CGAL/subdivision_method_3.h>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/face/close_lips.hpp"
 
 namespace hyperex::anatomy {
 
@@ -48,19 +49,29 @@ TriMesh subdivided(const Points& control, const Triangles& triangles) {
   return mesh;
 }
 
+/// Nearly passes through `points`.
+TriMesh subdivided_through(const Points& points, const Triangles& triangles) {
+  Points control = points;
+  TriMesh fine = subdivided(control, triangles);
+  for (int round = 0; round < kCorrections; ++round) {
+    control += points - fine.points.topRows(points.rows());
+    fine = subdivided(control, triangles);
+  }
+  return fine;
+}
+
 }  // namespace
 
 EmbeddedFace embedded_face() {
   const CanonicalFace& face = canonical_face();
   const Triangles triangles = face::opened_triangles(face);
-  const Eigen::Index vertices = face.mesh.points.rows();
-  Points control = face.mesh.points;
   EmbeddedFace embedded;
-  embedded.mesh = subdivided(control, triangles);
-  for (int round = 0; round < kCorrections; ++round) {
-    control += face.mesh.points - embedded.mesh.points.topRows(vertices);
-    embedded.mesh = subdivided(control, triangles);
-  }
+  embedded.mesh = subdivided_through(face.mesh.points, triangles);
+  face::close_lips(embedded.mesh.points, lip_contour());
+  // The places in the picture are divided as the places in space are.
+  Points places = Points::Zero(face.uv.rows(), 3);
+  places.leftCols<2>() = face.uv.cast<double>();
+  embedded.uv = subdivided_through(places, triangles).points.leftCols<2>().cast<float>();
   for (const auto& [name, indices] : face.landmarks) {
     // A landmark that is a mean of vertices is taken to the vertex of the fine mesh nearest to it.
     const Vec3 mean = face.landmark(name, embedded.mesh.points);

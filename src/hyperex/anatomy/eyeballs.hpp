@@ -14,7 +14,7 @@ struct FaceCorners {
   std::array<Vec3, 2> outer;
   std::array<std::optional<Vec3>, 2> inner;
   std::array<Vec3, 2> mouth;
-  Vec3 forward;  ///< unit length: where a head held upright looks
+  Vec3 forward;  ///< unit length: the direction in which an upright head looks
 };
 
 /// From the iBUG points or their anatomical names; nothing without the outer corners of the eyes
@@ -27,11 +27,11 @@ struct Eyeball {
   double radius_m = 0;
 };
 
-/// Right and left, behind `skin` (vertices at rest, metres); none without inner corners. The
-/// radius is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an opening of
-/// some 30 mm). The ball lies as far forward as keeps it 0.4 mm from all vertices of the lids. Its
-/// front is at most a sixth of that distance before the line between the corners, and at most 8 mm
-/// behind that place.
+/// Right and left, behind `skin` (vertices at rest, metres); none without inner corners. The radius
+/// is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an opening of some 30
+/// mm). The ball is as far forward as a distance of 0.4 mm from all vertices of the lids allows.
+/// Its front is at most a sixth of the corners' distance in front of the line between the corners,
+/// and at most 8 mm behind that position.
 std::vector<Eyeball> eyeballs_behind(const Points& skin, const FaceCorners& corners);
 
 }  // namespace hyperex::anatomy

@@ -20,11 +20,11 @@ namespace {
 // only five are given, 5 mm on lips, eyes and nose of a full set).
 constexpr double kSamePlace_m = 5e-3, kOffSurface_m = 5e-3;
 constexpr double kSurprise_m = 7e-3, kDeviations = 3.5;
-// Of a few landmarks each is predicted less well, and fewer can be odd by chance: true ones are at
-// most 2.0 standard deviations off there.
+// With few landmarks, each is predicted less well, and fewer can be outliers by chance: correct
+// ones were at most 2.0 standard deviations off.
 constexpr double kDeviationsOfFew = 2.75;
 constexpr std::size_t kFew = 20;
-/// More doubtful ones than this share, and the set as a whole is in doubt.
+/// If a larger share is doubtful, the whole set is.
 constexpr double kManyShare = 1.0 / 3;
 
 constexpr const char* kRemedy =
@@ -52,7 +52,8 @@ std::map<std::string, LandmarkSurprise> by_name(const std::vector<LandmarkSurpri
   return table;
 }
 
-/// Of two names of one place that are apart, the one that the others put farther off.
+/// If two names of one place are apart, the one that is farther from its predicted place is
+/// doubtful.
 void doubt_pairs(const io::Landmarks& given, Doubts& doubts) {
   const auto surprises = by_name(landmark_surprises(given));
   for (const auto& [name, position] : given) {

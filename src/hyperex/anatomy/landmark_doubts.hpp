@@ -28,29 +28,30 @@ struct LandmarkSurprise {
 /// they lie nearly on a line. `given`: m.
 std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given);
 
-/// The same against landmarks that were found on the same scan (tracking/scan): a person's and the
-/// program's landmarks differ by offsets that vary smoothly over the face and are alike on both
-/// sides. A landmark with another offset stands out. This finds far more errors than the comparison
-/// with the canonical face.
+/// The same relative to landmarks that the program found on the same scan (tracking/scan). The
+/// offsets between a person's and the program's landmarks vary smoothly over the face and are
+/// similar on both sides, so a misplaced landmark is an outlier. This finds far more errors than
+/// the comparison with the canonical face.
 std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
                                                  const io::Landmarks& found);
 
 /// Landmarks that are probably not where their names say: `landmarks.doubtful` for each, with the
 /// distance in mm and what to do, the most doubtful first; where there are many, only
 /// `landmarks.many_doubtful`. Three checks:
-///  * two names of one place (face::same_place) are more than 5 mm apart: the one that the others
-///    put farther off is named;
+///  * two names of one place (face::same_place) are more than 5 mm apart; the one that is farther
+///  from
+///    its predicted place is named;
 ///  * a landmark is more than 7 mm and 3.5 standard deviations (2.75 of at most 20 landmarks) from
-///    where the others put it (landmark_surprises), the worst being left out before the next is
+///    its predicted place (landmark_surprises); the worst one is left out before the next is
 ///    judged;
 ///  * a landmark is more than 5 mm off the scan's surface.
-/// Nothing is refused here: complete_landmarks does that, with far wider bounds.
+/// These landmarks are only reported. complete_landmarks refuses landmarks, by far wider bounds.
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);
 
-/// The same by landmarks that were found on this scan: those more than 7 mm and 3.5 standard
-/// deviations from where they put them (landmark_surprises). Of single landmarks moved by 10 mm on
-/// three faces this finds over 99 % at eyes and lips, 98 % at brows and nose, and 12 % at the
-/// outline of the jaw, along which places are no better defined.
+/// The same by landmarks that the program found on this scan: those more than 7 mm and 3.5 standard
+/// deviations from the places that these predict (landmark_surprises). Single landmarks were moved
+/// by 10 mm on three faces; over 99 % were found at eyes and lips, 98 % at brows and nose, and 12 %
+/// at the outline of the jaw, along which landmarks are poorly defined.
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found);
 
 }  // namespace hyperex::anatomy

@@ -11,6 +11,7 @@
 #include "hyperex/anatomy/negated_axes.hpp"
 #include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/geometry/transform.hpp"
@@ -27,13 +28,22 @@ constexpr double kLargestSurprise_m = 0.04;
 // A pair is exchanged if exchanging it back removes at least this share of the misfit.
 constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
 
-/// A handful of names, then how many more.
-std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t handful = 5;
-  const auto last = names.begin() + std::ptrdiff_t(std::min(handful, names.size()));
-  return fmt::format(
-      "{}{}", fmt::join(names.begin(), last, ", "),
-      names.size() > handful ? fmt::format(" and {} more", names.size() - handful) : "");
+/// Begins as the name of a known landmark does.
+bool resembles_a_known_one(const std::string& name) {
+  constexpr std::size_t kAlike = 3;  // letters
+  const std::string start = lower_case(name.substr(0, kAlike));
+  return std::ranges::any_of(canonical_face().landmarks, [&](const auto& known) {
+    return lower_case(known.first.substr(0, kAlike)) == start;
+  });
+}
+
+/// At most 20 names, first those that were probably meant to be known, then how many more.
+std::string listed(std::vector<std::string> names) {
+  constexpr std::size_t most = 20;
+  std::ranges::stable_partition(names, resembles_a_known_one);
+  const auto last = names.begin() + std::ptrdiff_t(std::min(most, names.size()));
+  return fmt::format("{}{}", fmt::join(names.begin(), last, ", "),
+                     names.size() > most ? fmt::format(" and {} more", names.size() - most) : "");
 }
 
 double misfit(const Points& canonical, const Points& given) {

@@ -14,23 +14,24 @@ struct CompletedLandmarks {
   std::vector<std::string> placed;  ///< sorted
 };
 
-/// Landmarks that are not given are placed: the canonical face is laid over the scan
-/// (register_canonical_face), corrected by a radial basis so that it meets the given landmarks, and
-/// the missing ones are the closest points of the scan to where it puts them.
-/// `source` is the file to name in errors. Throws InputError, all problems at once:
+/// Adds the landmarks that are not given. The canonical face is registered to the scan
+/// (register_canonical_face) and corrected by radial basis functions so that it passes through the
+/// given landmarks. Each missing landmark is the point of the scan closest to its position on the
+/// registered face. `source` is the file to name in errors. Throws InputError, all problems at
+/// once:
 ///  * landmarks in other axes than the scan's (negated_axes_problem);
 ///  * a given landmark farther than 15 mm from the scan's surface, named with the distance;
 ///  * left and right exchanged: of one pair (the fit is far better with the pair exchanged back),
 ///    or of all (the face then looks into the scan, as it does where the scan's triangles are
 ///    inside out);
-///  * a landmark 4 cm or more from where all the others put it;
+///  * a landmark 4 cm or more from the place that all the others predict;
 ///  * something is missing and fewer than three of the given are known to the canonical face, or
 ///    they lie nearly on a line; or a missing one is unknown to it.
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                                       const std::vector<std::string>& needed, const TriMesh& scan,
                                       const std::string& source = "landmarks");
 
-/// The same with all that the canonical face knows: what a simulation needs.
+/// The same for all landmarks that the canonical face knows. A simulation needs these.
 CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
                                       const std::string& source = "landmarks");
 

@@ -17,7 +17,8 @@ constexpr double kReach = 0.008;          // of the path about the guess
 constexpr double kCreaseArm = 0.0015;     // of the second difference
 constexpr double kSmoothing = 0.0006;     // standard deviation of the Gaussian over the heights
 constexpr double kLeastCrease = 0.00015;  // several times a scanner's noise after smoothing
-// What a step of one pixel up or down and a pixel's distance from the guess cost, metres of crease.
+// Costs of a step by one pixel up or down, and of a distance of one pixel from the guess, in metres
+// of crease depth.
 constexpr double kStepCost = 0.00004, kDistanceCost = 0.00001;
 
 /// Heights over the frontal plane: rows along v (up), columns along u (to the subject's left).

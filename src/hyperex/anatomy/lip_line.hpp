@@ -13,12 +13,13 @@ struct LipLine {
       0;  ///< mean over the line: how far the surface 1.5 mm above and below stands out
 };
 
-/// Finds it as the deepest crease from corner to corner: the scan's foremost surface as heights
-/// over the face's frontal plane (so that the lips' inner sides, where the scan has them, are
-/// hidden), and through them the path of largest second difference upwards, by dynamic programming.
-/// `guess`: a polyline from the right corner to the left near which it is sought (within 8 mm,
-/// nearer towards the ends, which are kept); `scan_from_face`: rotation whose columns are the
-/// subject's left, up and forward in the scan's frame. Nothing where no clear crease runs there.
+/// Finds the deepest crease from corner to corner. The scan's foremost surface is represented as
+/// heights over the face's frontal plane, so that inner sides of the lips are hidden. The line is
+/// the path with the largest second differences in vertical direction, found by dynamic
+/// programming. `guess`: a polyline from the right corner to the left; the search is restricted to
+/// 8 mm from it, less towards the ends, which are kept. `scan_from_face`: rotation whose columns
+/// are the subject's left, up and forward in the scan's frame. Returns nothing if there is no clear
+/// crease.
 std::optional<LipLine> find_lip_line(const TriMesh& scan, const Points& guess,
                                      const Eigen::Matrix3d& scan_from_face);
 

@@ -12,11 +12,12 @@ namespace hyperex::anatomy {
 /// Which lip a vertex belongs to, by paths along the surface, since across a closed mouth the other
 /// lip may be nearer in a straight line. Per vertex: length of the path to the lower lip minus that
 /// to the upper one (m); above 0 on the upper side. A missing path counts as 1 m (0 where both are
-/// missing). Where the mouth is open it is shifted to be 0 at its corners (between them linearly),
-/// and at least 5 mm, with the lip's own sign, on its rims.
+/// missing). If the mouth is open, values are shifted to be 0 at its corners (linearly in between).
+/// On the rims they are at least 5 mm in magnitude, with the sign of the lip.
 std::vector<double> upper_lip_margin(const TriMesh& mesh, const io::Landmarks& landmarks);
 
-/// -1, 0 or 1 for points of the lower lip, of neither and of the upper lip by their iBUG-68 number.
+/// By iBUG-68 number: -1 for points of the lower lip, 1 for points of the upper lip, 0 for all
+/// others.
 int lip_of(const std::string& landmark);
 
 /// The border loop between the lips, in the direction of its triangles; empty where the mouth is

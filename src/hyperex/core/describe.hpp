@@ -57,7 +57,7 @@ inline constexpr Unit kKilopascalsPerMillimetre{"kPa/mm",    "_kpa_per_mm", "Pa/
 inline constexpr Unit kPascalSeconds{"Pa s", "_pa_s", "Pa s", "_pa_s"};
 inline constexpr Unit kKilogramsPerCubicMetre{"kg/m^3", "_kg_m3", "kg/m^3", "_kg_m3"};
 
-/// Details of an option besides its sentence.
+/// Details of an option, in addition to its sentence.
 struct OptionDetails {
   Unit unit = {};
   Bounds bounds = {0, std::numeric_limits<double>::infinity()};  ///< of numbers, SI

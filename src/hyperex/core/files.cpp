@@ -37,7 +37,8 @@ int standard_stream(const fs::path& path) {
   return -1;
 }
 
-/// What stands at `path` takes bytes, but is no file that another could replace.
+/// Whether `path` is a device, a pipe or a standard stream: it accepts bytes but cannot be replaced
+/// by another file.
 bool is_written_through(const fs::path& path) {
   std::error_code error;
   const fs::file_status status = fs::status(path, error);
@@ -46,7 +47,8 @@ bool is_written_through(const fs::path& path) {
 }
 
 void write_through(const fs::path& path, const std::function<void(std::ostream&)>& write) {
-  std::ostringstream buffer;  // whole before anything is sent
+  std::ostringstream buffer;                // whole before anything is sent
+  buffer.exceptions(std::ostream::badbit);  // a lack of memory is thrown on
   write(buffer);
   const std::string bytes = std::move(buffer).str();
   const int stream = standard_stream(path);
@@ -84,15 +86,57 @@ void check_right(const fs::path& path, const fs::path& file) {
   if (::access(there.c_str(), W_OK) != 0) cannot_write(path, std::strerror(errno));
 }
 
-/// What comes out of a pipe need not end.
-std::string read_pipe(const fs::path& path, std::istream& stream) {
+/// A file that is open for reading. A C++ stream would report a lack of memory as the end of the
+/// file.
+class OpenFile {
+ public:
+  explicit OpenFile(const fs::path& path)
+      : path_(path), descriptor_(::open(path.c_str(), O_RDONLY | O_NOCTTY | O_CLOEXEC)) {
+    if (descriptor_ < 0) fail();
+  }
+  ~OpenFile() { ::close(descriptor_); }
+  OpenFile(const OpenFile&) = delete;
+  OpenFile& operator=(const OpenFile&) = delete;
+
+  /// Reads at most `count` bytes. Returns 0 at the end.
+  std::size_t read(char* to, std::size_t count) const {
+    while (true) {
+      const ssize_t some = ::read(descriptor_, to, count);
+      if (some >= 0) return std::size_t(some);
+      if (errno != EINTR) fail();
+    }
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw InputError(path_, fmt::format("cannot be read ({})", std::strerror(errno)));
+  }
+
+  fs::path path_;
+  int descriptor_;
+};
+
+/// Reads a pipe up to a limit, because its data may never end.
+std::string read_pipe(const fs::path& path, const OpenFile& file) {
   constexpr std::size_t most = std::size_t(1) << 30;
   std::string bytes;
   std::vector<char> part(1 << 16);
-  while (stream.read(part.data(), std::streamsize(part.size())), stream.gcount() > 0) {
-    bytes.append(part.data(), std::size_t(stream.gcount()));
+  while (const std::size_t count = file.read(part.data(), part.size())) {
+    bytes.append(part.data(), count);
     if (bytes.size() > most) throw InputError(path, "gives more than 1 GiB; expected a file");
   }
+  return bytes;
+}
+
+/// Reads to the end, also where the size is stated wrongly, as by the system's own tables.
+std::string read_to_end(const OpenFile& file, std::size_t stated_size) {
+  std::string bytes(stated_size + 1, '\0');
+  std::size_t size = 0;
+  while (const std::size_t count = file.read(bytes.data() + size, bytes.size() - size)) {
+    size += count;
+    if (size == bytes.size()) bytes.resize(2 * size);
+  }
+  bytes.resize(size);
   return bytes;
 }
 }  // namespace
@@ -169,12 +213,8 @@ std::string read_file(const fs::path& path) {
   const bool pipe = fs::is_fifo(path, error);
   if (!pipe && !fs::is_regular_file(path, error))
     throw InputError(path, "is a device; expected a file");
-  std::ifstream stream(path, std::ios::binary);
-  if (!stream) throw InputError(path, "cannot be read");
-  if (pipe) return read_pipe(path, stream);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  return bytes.str();
+  const OpenFile file(path);
+  return pipe ? read_pipe(path, file) : read_to_end(file, fs::file_size(path));
 }
 
 }  // namespace hyperex

@@ -23,8 +23,8 @@ void write_file_atomically(const std::filesystem::path& path,
 void check_outputs(const std::vector<std::filesystem::path>& outputs,
                    const std::vector<std::filesystem::path>& inputs = {});
 
-/// Where the bytes of `path` go when it is written: links are followed, also to a file that is not
-/// there yet. Throws InputError for a folder and for links that lead in a circle.
+/// The path that is actually written when `path` is written: links are followed, also to a file
+/// that does not exist yet. Throws InputError for a folder and for circular links.
 std::filesystem::path followed_links(const std::filesystem::path& path);
 
 /// The whole file as bytes; InputError where it is missing, a folder, a device or unreadable.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/interrupt.hpp"
 
+#include <cxxabi.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,10 +10,14 @@
 #include <cerrno>
 #include <csignal>
 #include <cstdlib>
+#include <exception>
 #include <memory>
+#include <new>
 #include <string>
+#include <string_view>
 #include <system_error>
 #include <thread>
+#include <typeinfo>
 #include <vector>
 
 namespace hyperex {
@@ -33,6 +38,9 @@ int wake[2] = {-1, -1};  // a pipe: a handler may write to it, and hardly anythi
 std::atomic<bool> interrupted{false};
 
 constexpr std::size_t kReserve = 1 << 20;
+constexpr unsigned char kNoMemory = 0;  // in the place of a signal's number
+std::terminate_handler usual_end = nullptr;
+std::atomic<bool> ending{false};
 
 enum class Request { not_awaited, awaited, made };
 std::atomic<Request> request{Request::not_awaited};
@@ -57,7 +65,21 @@ void remove_all_on_list() {
     fs::path going = path;
     going += ".going";
     fs::rename(path, going, error);
-    fs::remove_all(error ? path : going, error);
+    if (error) fs::remove_all(path, error);
+    fs::remove_all(going, error);  // also where an earlier try renamed it and went no further
+  }
+}
+
+/// Where memory is short, again after a while: what other threads give up comes back.
+void remove_with_patience() {
+  constexpr int kTries = 50;
+  constexpr unsigned kPause_us = 20000;
+  for (int i = 0; i < kTries; ++i) {
+    try {
+      return remove_all_on_list();
+    } catch (const std::bad_alloc&) {
+      ::usleep(kPause_us);
+    }
   }
 }
 
@@ -79,12 +101,34 @@ void wait_for_signal() {
   reserve.reset();
   const auto lock = hold_off_interruption();
   const bool unfinished = !list().empty();
-  remove_all_on_list();
-  // A progress bar may stand on the line.
+  remove_with_patience();
+  if (signal == kNoMemory) ::_exit(1);
+  // The line may contain a progress bar.
   const std::string line = std::string(::isatty(2) ? "\n" : "") + "hyperex: interrupted" +
                            (unfinished ? "; what was half written is removed\n" : "\n");
   [[maybe_unused]] const auto written = ::write(2, line.data(), line.size());
   ::_exit(128 + signal);
+}
+
+bool memory_ran_out() {
+  const std::type_info* const thrown = abi::__cxa_current_exception_type();
+  return thrown &&
+         (*thrown == typeid(std::bad_alloc) || *thrown == typeid(std::bad_array_new_length));
+}
+
+/// An exception that nothing can catch, as one that leaves a destructor. Takes no memory itself:
+/// the waiting thread has some.
+[[noreturn]] void on_terminate() {
+  if (!memory_ran_out() && usual_end) usual_end();
+  constexpr unsigned kLongest_s = 5;  // that thread may wait for a lock which this one holds
+  if (!ending.exchange(true)) {
+    constexpr std::string_view line = "hyperex: there is not enough memory for this\n";
+    [[maybe_unused]] const auto written = ::write(2, line.data(), line.size());
+    interrupted = true;
+    if (wake[1] < 0 || ::write(wake[1], &kNoMemory, 1) != 1) ::_exit(1);
+  }
+  ::sleep(kLongest_s);
+  ::_exit(1);
 }
 
 }  // namespace
@@ -116,6 +160,10 @@ void end_cleanly_when_interrupted() {
     action.sa_flags = SA_RESTART;
     ::sigaction(signal, &action, nullptr);
   }
+}
+
+void end_cleanly_without_memory() {
+  usual_end = std::set_terminate(on_terminate);
 }
 
 StopOnRequest::StopOnRequest() {

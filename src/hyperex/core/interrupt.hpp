@@ -30,6 +30,11 @@ std::unique_lock<std::mutex> hold_off_interruption();
 /// as well. Call once, from main().
 void end_cleanly_when_interrupted();
 
+/// From now on an allocation that fails where nothing can catch it (in a destructor, before main()
+/// catches) removes the files on the list, reports that in one line on standard error and ends the
+/// program with the status 1. Call once, from main().
+void end_cleanly_without_memory();
+
 /// While an object of this class lives, the first of these signals only requests an end: the
 /// program goes on and writes what it has. The second signal ends it as above. One object at a
 /// time.

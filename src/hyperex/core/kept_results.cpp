@@ -22,7 +22,7 @@ namespace fs = std::filesystem;
 constexpr const char* kExtension = ".kept";
 constexpr std::size_t kDigits = 64;
 
-/// Of the bytes under this key: no entry can stand for another.
+/// Includes the key, so that no entry can be taken for another.
 std::string checksum(const std::string& key, const std::string& bytes) {
   Sha256 hash;
   hash.add_text(key);

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 #include <sys/mman.h>
+#include <tbb/task_arena.h>
 
 #ifdef __GLIBC__
 #include <malloc.h>
@@ -16,19 +17,36 @@
 namespace hyperex {
 namespace {
 
-using Gemm = void (*)(const char*, const char*, const int*, const int*, const int*, const double*,
-                      const double*, const int*, const double*, const int*, const double*, double*,
-                      const int*);
+using Take = void* (*)(int);
+using Return = void (*)(void*);
 using Parallel = void (*)(void (*)(void*), void*, unsigned, unsigned);
 
-void require_memory() {
-  constexpr std::size_t bytes = std::size_t(768) << 20;
+// Memory of a run of a coarse face (measured), and of OpenBLAS for each thread that calls it.
+constexpr std::size_t kFaceBytes = std::size_t(512) << 20, kBufferBytes = std::size_t(128) << 20;
+
+// One for each thread that computes at once and one for a thread that starts them.
+std::size_t blas_buffers() {
+  return static_cast<std::size_t>(tbb::this_task_arena::max_concurrency()) + 1;
+}
+
+void require_memory(std::size_t bytes) {
   void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped == MAP_FAILED)
     throw std::runtime_error(fmt::format(
         "there is not enough memory: {} MiB may not be taken (see ulimit -v)", bytes >> 20));
   ::munmap(mapped, bytes);
+}
+
+// OpenBLAS takes a buffer when a thread calls it and none is free, keeps it for later calls, and
+// tries for ever where there is no memory.
+void take_blas_buffers(std::size_t count) {
+  const auto take = loaded_symbol<Take>("blas_memory_alloc");
+  const auto give_back = loaded_symbol<Return>("blas_memory_free");
+  if (!take || !give_back) return;
+  std::vector<void*> buffers(count);
+  for (auto& buffer : buffers) buffer = take(0);
+  for (auto* buffer : buffers) give_back(buffer);
 }
 
 }  // namespace
@@ -40,14 +58,8 @@ void give_back_freed_memory() {
 }
 
 void take_library_memory() {
-  require_memory();
-  if (const auto multiply = loaded_symbol<Gemm>("dgemm_")) {
-    constexpr int n = 64;  // smaller ones go another way, without the memory
-    const double one = 1, zero = 0;
-    const std::vector<double> a(n * n, 1.0);
-    std::vector<double> product(n * n);
-    multiply("N", "N", &n, &n, &n, &one, a.data(), &n, a.data(), &n, &zero, product.data(), &n);
-  }
+  require_memory(kFaceBytes + blas_buffers() * kBufferBytes);
+  take_blas_buffers(blas_buffers());
   if (const auto parallel = loaded_symbol<Parallel>("GOMP_parallel"))
     parallel([](void*) {}, nullptr, 0, 0);
 }

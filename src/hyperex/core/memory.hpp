@@ -3,11 +3,12 @@
 
 namespace hyperex {
 
-/// Call it before long work, while no file is half written: makes OpenBLAS allocate the memory, and
-/// OpenMP start the threads, that they keep, where this process has loaded them. Throws
-/// std::runtime_error, in one sentence, where this process may not take 768 MiB (ulimit -v),
-/// measured to be enough for a coarse face: libraries that find no memory while they work wait for
-/// ever or end the program.
+/// Call it before long work, while no file is half written: makes OpenBLAS allocate the memory that
+/// it keeps, for as many threads as compute at once, and OpenMP start its threads, where this
+/// process has loaded them. Libraries that find no memory while they work wait for ever or end the
+/// program. Throws std::runtime_error, in one sentence, where this process may not take that memory
+/// (128 MiB a thread, touched only where it is used) and the 512 MiB that a coarse face takes
+/// besides, measured (ulimit -v).
 void take_library_memory();
 
 /// Returns freed memory to the system. For use after large results were freed that will not be

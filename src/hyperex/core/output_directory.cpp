@@ -54,7 +54,8 @@ bool must_stay(const fs::path& folder) {
          (status.stx_attributes & STATX_ATTR_MOUNT_ROOT) != 0;
 }
 
-/// What `known` does not name: a folder with nothing of it inside as a whole, ending in '/'.
+/// Collects the entries that `known` does not name. A folder that contains none of the known files
+/// is one entry, ending in '/'.
 void find_others(const fs::path& folder, const std::string& at, const std::set<std::string>& known,
                  std::vector<std::string>& others) {
   std::error_code error;
@@ -208,7 +209,7 @@ void OutputDirectory::commit() {
     committed_ = true;
     return;
   }
-  // Of the run that wrote last: another one may have ended meanwhile.
+  // Read again, because another run may have finished in the meantime.
   std::set<std::string> known = earlier_(target_);
   known.insert(known_.begin(), known_.end());
   const fs::path aside =

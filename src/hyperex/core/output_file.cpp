@@ -37,7 +37,7 @@ void check(const OutputFile& output) {
   std::error_code error;
   const fs::file_status there = fs::status(output.path, error);
   if (fs::exists(there) && !fs::is_regular_file(there)) return;
-  // /dev/stdout stands for a file that the user's shell has opened.
+  // /dev/stdout denotes a file that the user's shell has opened.
   if (const std::string path = output.path.string();
       path.starts_with("/dev/") || path.starts_with("/proc/"))
     return;

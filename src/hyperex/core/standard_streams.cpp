@@ -34,7 +34,7 @@ Printed flush_standard_output() {
   // Nothing is left to send: whether the reader has closed the pipe is then found by poll().
   pollfd output{STDOUT_FILENO, POLLOUT, 0};
   if (error == 0 && ::poll(&output, 1, 0) > 0 && (output.revents & POLLERR)) error = EPIPE;
-  return {false, error == EPIPE, error != 0 ? std::strerror(error) : "some of it is lost"};
+  return {false, error == EPIPE, error != 0 ? std::strerror(error) : "part of it was lost"};
 }
 
 }  // namespace hyperex

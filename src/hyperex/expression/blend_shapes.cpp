@@ -13,6 +13,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/slips.hpp"
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/io/csv.hpp"
@@ -65,23 +66,6 @@ void note_left_out(const std::vector<std::string>& columns, BlendShapes& out) {
 }
 
 }  // namespace
-
-const std::vector<std::string>& arkit_shapes() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const char* pattern :
-         {"browDown*",      "browInnerUp",     "browOuterUp*",    "cheekPuff",       "cheekSquint*",
-          "eyeBlink*",      "eyeLookDown*",    "eyeLookIn*",      "eyeLookOut*",     "eyeLookUp*",
-          "eyeSquint*",     "eyeWide*",        "jawForward",      "jawLeft",         "jawOpen",
-          "jawRight",       "mouthClose",      "mouthDimple*",    "mouthFrown*",     "mouthFunnel",
-          "mouthLeft",      "mouthLowerDown*", "mouthPress*",     "mouthPucker",     "mouthRight",
-          "mouthRollLower", "mouthRollUpper",  "mouthShrugLower", "mouthShrugUpper", "mouthSmile*",
-          "mouthStretch*",  "mouthUpperUp*",   "noseSneer*",      "tongueOut"})
-      for (const auto& name : arkit_names(pattern)) all.push_back(name);
-    return all;
-  }();
-  return names;
-}
 
 BlendShapes read_arkit(const std::filesystem::path& file) {
   const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {

@@ -22,9 +22,6 @@ struct BlendShapes {
   std::vector<std::string> misspelt;
 };
 
-/// The names of ARKit's 52 blend shapes, in alphabetical order, left before right.
-const std::vector<std::string>& arkit_shapes();
-
 /// Reads a CSV of blend-shape weights. It has a column of time (`time_s`, `time` or `timestamp` in
 /// seconds, or `Timecode` as Live Link Face writes it) and columns named after blend shapes; the
 /// first letter of a name may be small or capital. Other columns are ignored and named in a note.

@@ -39,14 +39,4 @@ Points landmarks_on(const FaceModel& model, const Points& points) {
   return on;
 }
 
-std::vector<std::string> arkit_names(const std::string& pattern) {
-  if (pattern.empty()) return {};
-  const auto star = pattern.find('*');
-  if (star == std::string::npos) return {pattern};
-  std::string left = pattern, right = pattern;
-  left.replace(star, 1, "Left");
-  right.replace(star, 1, "Right");
-  return {left, right};
-}
-
 }  // namespace hyperex::expression

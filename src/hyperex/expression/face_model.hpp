@@ -60,10 +60,6 @@ Vec3 landmark_at(const std::vector<int>& vertices, const Points& points);
 /// All landmarks of a model in the order of model.landmarks. `points`: positions of its vertices.
 Points landmarks_on(const FaceModel& model, const Points& points);
 
-/// The blend shapes that a unit's `arkit` names: for "mouthSmile*", the two with Left and Right;
-/// for a name without a star, the name itself; for "", none.
-std::vector<std::string> arkit_names(const std::string& pattern);
-
 /// The canonical face (face/canonical_face.hpp) with its own animation units
 /// (data/canonical_units.csv) and three shape units: width, height and depth by 10 %. Each of its
 /// 468 vertices is one point of the network. Always returns the same object.

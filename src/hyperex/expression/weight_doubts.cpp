@@ -7,6 +7,8 @@
 #include <limits>
 #include <set>
 
+#include "hyperex/expression/arkit_names.hpp"
+
 namespace hyperex::expression {
 namespace {
 

@@ -29,6 +29,7 @@ void require(bool sound) {
 
 void read_obj(std::string_view text, CanonicalFace& face) {
   std::istringstream lines{std::string(text)};
+  lines.exceptions(std::ios::badbit);  // else a lack of memory reads like the end of the text
   lines.imbue(std::locale::classic());
   face.mesh.points.resize(kVertices, 3);
   face.uv.resize(kVertices, 2);
@@ -36,6 +37,7 @@ void read_obj(std::string_view text, CanonicalFace& face) {
   int points = 0, uvs = 0, triangles = 0;
   for (std::string line; std::getline(lines, line);) {
     std::istringstream words(line);
+    words.exceptions(std::ios::badbit);
     words.imbue(std::locale::classic());
     std::string kind;
     words >> kind;
@@ -66,6 +68,7 @@ void read_obj(std::string_view text, CanonicalFace& face) {
 
 void read_landmark_table(std::string_view text, CanonicalFace& face) {
   std::istringstream lines{std::string(text)};
+  lines.exceptions(std::ios::badbit);  // else a lack of memory reads like the end of the text
   for (std::string line; std::getline(lines, line);) {
     if (line.empty() || line[0] == '#' || line == "name,vertices") continue;
     const auto comma = line.find(',');

@@ -3,6 +3,7 @@
 #include <embree3/rtcore.h>
 #include <tbb/parallel_for.h>
 
+#include <exception>
 #include <new>
 #include <stdexcept>
 
@@ -69,19 +70,47 @@ inline void add_triangles(RTCScene scene, const Points& points, const Triangles&
   rtcReleaseGeometry(geometry);
 }
 
+/// The task group in which all trees are built. It is never cancelled, as nothing is thrown in it,
+/// and never destroyed: the tasks of a scene refer to the group of its first build for as long as
+/// the scene exists. TBB follows that reference when it cancels any other group.
+inline tbb::task_group_context& tree_builds() {
+  static auto* const group = new tbb::task_group_context(tbb::task_group_context::isolated);
+  return *group;
+}
+
 /// Builds the tree of a scene. Embree distributes this work through TBB. If an exception has
 /// cancelled the surrounding task group, the tree would be left incomplete, and queries would
-/// crash. Therefore the build runs in a task group of its own. Throws std::bad_alloc if memory runs
-/// out.
+/// crash. Therefore the build runs in another group. Throws std::bad_alloc if memory runs out.
 inline void commit_whole(RTCScene scene) {
-  tbb::task_group_context alone(tbb::task_group_context::isolated);
+  std::exception_ptr error;
   tbb::parallel_for(
       0, 1,
-      [scene](int) {
-        rtcCommitScene(scene);
-        throw_embree_error();  // errors are reported in the thread that builds the tree
+      [&](int) {
+        try {
+          rtcCommitScene(scene);
+          throw_embree_error();  // errors are reported in the thread that builds the tree
+        } catch (...) {
+          error = std::current_exception();
+        }
       },
-      alone);
+      tree_builds());
+  if (error) std::rethrow_exception(error);
+}
+
+/// Whether a ray meets a triangle of a committed scene between two distances along it (unit
+/// length).
+inline bool meets(RTCScene scene, const Vec3& from, const Vec3& along, double near_m,
+                  double far_m) {
+  RTCRay ray{};
+  ray.org_x = float(from.x()), ray.org_y = float(from.y()), ray.org_z = float(from.z());
+  ray.dir_x = float(along.x()), ray.dir_y = float(along.y()), ray.dir_z = float(along.z());
+  ray.tnear = float(near_m);
+  ray.tfar = float(far_m);
+  ray.mask = ~0u;
+  RTCIntersectContext context;
+  rtcInitIntersectContext(&context);
+  rtcOccluded1(scene, &context, &ray);
+  return ray.tfar < 0;
 }
 
 }  // namespace hyperex

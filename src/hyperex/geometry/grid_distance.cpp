@@ -66,7 +66,7 @@ class Union {
   explicit Union(const TriMesh& mesh) : whole_(mesh) {
     for (TriMesh& part : components_of(mesh)) parts_.emplace_back(std::move(part));
   }
-  /// What one sample of a row passes on to the next.
+  /// The state that one sample of a row passes to the next.
   struct Row {
     std::vector<Before> part;
     Before whole;

@@ -20,16 +20,7 @@ class RayTree {
   }
 
   bool blocked(const Vec3& from, const Vec3& towards, double reach_m) const {
-    RTCRay ray{};
-    ray.org_x = float(from.x()), ray.org_y = float(from.y()), ray.org_z = float(from.z());
-    ray.dir_x = float(towards.x()), ray.dir_y = float(towards.y()), ray.dir_z = float(towards.z());
-    ray.tnear = kFrom_m;
-    ray.tfar = float(reach_m);
-    ray.mask = ~0u;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcOccluded1(scene_, &context, &ray);
-    return ray.tfar < 0;
+    return meets(scene_, from, towards, kFrom_m, reach_m);
   }
 
  private:

@@ -70,7 +70,7 @@ std::vector<std::string> read_names(const std::filesystem::path& file, int line,
           {file, line, fmt::format("column {}", c + 1), quotable(names[c]), printable_name});
     if (!known.insert(names[c]).second)
       throw InputError({file, line, fmt::format("column {}", c + 1), quotable(names[c]),
-                        "each name once; it stands twice"});
+                        "each name once; it occurs twice"});
   }
   return names;
 }

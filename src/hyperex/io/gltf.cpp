@@ -5,13 +5,16 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <functional>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/remarks.hpp"
 #include "hyperex/io/gltf_accessors.hpp"
 #include "hyperex/io/gltf_file.hpp"
+#include "hyperex/io/gltf_shapes.hpp"
 #include "hyperex/io/image.hpp"
 #include "hyperex/io/raw_mesh.hpp"
 
@@ -24,8 +27,29 @@ class SceneReader {
   SceneReader(const std::filesystem::path& file, const tinygltf::Model& model)
       : file_(file), model_(model), accessors_(file, model) {}
 
+  /// The primitive with morph targets that has the most triangles, as a mesh of its own.
+  ShapedMesh read_shapes() {
+    walk([&](const tinygltf::Mesh& mesh, const Eigen::Affine3d& scene_from_node) {
+      note_shaped(mesh, scene_from_node);
+    });
+    if (!shaped_) throw InputError(file_, "has no mesh with named morph targets; expected a rig");
+    const auto [primitive, mesh, scene_from_node] = *shaped_;
+    add(*primitive, scene_from_node);
+    raw_.points = Eigen::Map<const Points>(xyz_.data(), xyz_.size() / 3, 3);
+    raw_.corner_uv.clear();
+    const std::size_t vertices = xyz_.size() / 3;
+    ShapedMesh out;
+    out.shapes = shapes_of(*primitive, names_of(*mesh), vertices, scene_from_node.linear());
+    out.mesh = triangulated(file_, std::move(raw_)).mesh;
+    out.landmarks = landmarks_of(*mesh, scene_from_node);
+    return out;
+  }
+
   RawMesh read() {
-    for (const int root : roots()) visit(root, Eigen::Affine3d::Identity(), 1);
+    walk([&](const tinygltf::Mesh& mesh, const Eigen::Affine3d& scene_from_node) {
+      first_vertex_.clear();
+      for (const auto& primitive : mesh.primitives) add(primitive, scene_from_node);
+    });
     raw_.points = Eigen::Map<const Points>(xyz_.data(), xyz_.size() / 3, 3);
     if (coloured_)
       raw_.vertex_colour = Eigen::Map<const VertexColours>(rgba_.data(), rgba_.size() / 4, 4);
@@ -64,7 +88,81 @@ class SceneReader {
     return transform;
   }
 
-  void visit(int id, const Eigen::Affine3d& scene_from_parent, int depth) {
+  /// Takes the mesh of a node, where its transforms place it.
+  using TakeMesh = std::function<void(const tinygltf::Mesh&, const Eigen::Affine3d&)>;
+
+  void walk(const TakeMesh& take) {
+    for (const int root : roots()) visit(root, Eigen::Affine3d::Identity(), 1, take);
+  }
+
+  /// The names of a mesh's morph targets; none where it has no list of them.
+  static std::vector<std::string> names_of(const tinygltf::Mesh& mesh) {
+    std::vector<std::string> names;
+    if (!mesh.extras.IsObject() || !mesh.extras.Has("targetNames")) return names;
+    const tinygltf::Value& listed = mesh.extras.Get("targetNames");
+    for (std::size_t k = 0; listed.IsArray() && k < listed.ArrayLen(); ++k) {
+      const tinygltf::Value& name = listed.Get(static_cast<int>(k));
+      names.push_back(name.IsString() ? name.Get<std::string>() : "");
+    }
+    return names;
+  }
+
+  Landmarks landmarks_of(const tinygltf::Mesh& mesh, const Eigen::Affine3d& scene_from_node) const {
+    Landmarks landmarks;
+    if (!mesh.extras.IsObject() || !mesh.extras.Has("landmarks_m")) return landmarks;
+    const tinygltf::Value& listed = mesh.extras.Get("landmarks_m");
+    const auto expect = [&](bool right) {
+      if (!right)
+        throw InputError(file_,
+                         "landmarks_m of its mesh: expected an object of names with three numbers");
+    };
+    expect(listed.IsObject());
+    for (const std::string& name : listed.Keys()) {
+      const tinygltf::Value& at = listed.Get(name);
+      expect(at.IsArray() && at.ArrayLen() == 3);
+      Vec3 place;
+      for (int k = 0; k < 3; ++k) {
+        expect(at.Get(k).IsNumber());
+        place[k] = at.Get(k).GetNumberAsDouble();
+      }
+      expect(place.allFinite());
+      landmarks[name] = scene_from_node * place;
+    }
+    return landmarks;
+  }
+
+  void note_shaped(const tinygltf::Mesh& mesh, const Eigen::Affine3d& scene_from_node) {
+    if (names_of(mesh).empty()) return;
+    for (const auto& primitive : mesh.primitives) {
+      const auto position = primitive.attributes.find("POSITION");
+      if (primitive.targets.empty() || position == primitive.attributes.end()) continue;
+      const std::size_t corners = primitive.indices < 0
+                                      ? accessors_.count(position->second, "POSITION")
+                                      : accessors_.count(primitive.indices, "indices");
+      if (shaped_ && corners <= most_corners_) continue;
+      most_corners_ = corners;
+      shaped_ = Shaped{&primitive, &mesh, scene_from_node};
+    }
+  }
+
+  std::vector<MorphShape> shapes_of(const tinygltf::Primitive& primitive,
+                                    const std::vector<std::string>& names, std::size_t vertices,
+                                    const Eigen::Matrix3d& turn) const {
+    std::vector<MorphShape> shapes;
+    for (std::size_t k = 0; k < std::min(names.size(), primitive.targets.size()); ++k) {
+      const auto position = primitive.targets[k].find("POSITION");
+      if (names[k].empty() || position == primitive.targets[k].end()) continue;
+      const auto xyz = accessors_.read_sparse(position->second, 3, vertices, "a morph target");
+      const Points rows = Eigen::Map<const Points>(xyz.data(), Eigen::Index(vertices), 3);
+      if (!rows.allFinite())
+        throw InputError(
+            file_, fmt::format("the morph target {} has a number that is not finite", names[k]));
+      shapes.push_back({names[k], (rows * turn.transpose()).cast<float>()});
+    }
+    return shapes;
+  }
+
+  void visit(int id, const Eigen::Affine3d& scene_from_parent, int depth, const TakeMesh& take) {
     constexpr int deepest = 256;
     if (depth > deepest)
       throw InputError(file_, fmt::format("its nodes are nested deeper than {} levels", deepest));
@@ -72,18 +170,14 @@ class SceneReader {
       throw InputError(file_, fmt::format("its scene names node {}; expected 0 to {}", id,
                                           int(model_.nodes.size()) - 1));
     if (!visited_.insert(id).second)
-      throw InputError(file_, fmt::format("node {} hangs in the scene twice; expected a tree", id));
+      throw InputError(file_, fmt::format("node {} is in the scene twice; expected a tree", id));
     const tinygltf::Node& node = model_.nodes[id];
     const Eigen::Affine3d scene_from_node = scene_from_parent * parent_from_node(node);
     if (node.mesh >= static_cast<int>(model_.meshes.size()))
       throw InputError(file_,
                        fmt::format("node {} names mesh {}, which is not there", id, node.mesh));
-    if (node.mesh >= 0) {
-      first_vertex_.clear();
-      for (const auto& primitive : model_.meshes[node.mesh].primitives)
-        add(primitive, scene_from_node);
-    }
-    for (const int child : node.children) visit(child, scene_from_node, depth + 1);
+    if (node.mesh >= 0) take(model_.meshes[node.mesh], scene_from_node);
+    for (const int child : node.children) visit(child, scene_from_node, depth + 1, take);
   }
 
   void add(const tinygltf::Primitive& primitive, const Eigen::Affine3d& scene_from_node) {
@@ -214,9 +308,17 @@ class SceneReader {
     return picture;
   }
 
+  struct Shaped {
+    const tinygltf::Primitive* primitive;
+    const tinygltf::Mesh* mesh;
+    Eigen::Affine3d scene_from_node;
+  };
+
   const std::filesystem::path& file_;
   const tinygltf::Model& model_;
   GltfAccessors accessors_;
+  std::optional<Shaped> shaped_;
+  std::size_t most_corners_ = 0;
   RawMesh raw_;
   std::vector<double> xyz_;
   std::vector<std::uint8_t> rgba_;
@@ -231,6 +333,11 @@ class SceneReader {
 RawMesh read_gltf(const std::filesystem::path& file) {
   const tinygltf::Model model = load_gltf(file);
   return SceneReader(file, model).read();
+}
+
+ShapedMesh read_gltf_shapes(const std::filesystem::path& file) {
+  const tinygltf::Model model = load_gltf(file);
+  return SceneReader(file, model).read_shapes();
 }
 
 }  // namespace hyperex::io

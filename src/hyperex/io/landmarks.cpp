@@ -27,7 +27,7 @@ json parse_strictly(const std::filesystem::path& file) {
     if (event == json::parse_event_t::object_end) keys.pop_back();
     if (event == json::parse_event_t::key && !keys.back().insert(parsed.get<std::string>()).second)
       throw InputError(
-          {file, 0, quotable(parsed.get<std::string>()), "", "each name once; it stands twice"});
+          {file, 0, quotable(parsed.get<std::string>()), "", "each name once; it occurs twice"});
     return true;
   };
   try {
@@ -64,7 +64,7 @@ void add(const std::filesystem::path& file, Landmarks& landmarks, const std::str
   if (!is_printable_name(name))
     throw InputError({file, 0, "name of a point", quotable(name), printable_name});
   if (!landmarks.emplace(name, point).second)
-    throw InputError({file, 0, quotable(name), "", "each name once; it stands twice"});
+    throw InputError({file, 0, quotable(name), "", "each name once; it occurs twice"});
 }
 
 LengthUnit parsed_unit(const std::filesystem::path& file, const char* key, const json& value) {

@@ -127,6 +127,7 @@ class MaterialReader : public tinyobj::MaterialReader {
       return false;
     }
     std::istringstream stream(text);
+    stream.exceptions(std::ios::badbit);
     tinyobj::LoadMtl(numbers, materials, &stream, warning, error);
     return true;
   }
@@ -182,6 +183,7 @@ RawMesh read_obj(const std::filesystem::path& file) {
   std::vector<tinyobj::material_t> materials;
   std::string warning, error;
   std::istringstream stream(text);
+  stream.exceptions(std::ios::badbit);  // else a lack of memory reads like the end of the file
   MaterialReader material_reader(file.parent_path());
   const bool sound = tinyobj::LoadObj(&attributes, &shapes, &materials, &warning, &error, &stream,
                                       &material_reader, false, false);

@@ -319,7 +319,7 @@ void write_ply(const std::filesystem::path& file, const TriMesh& mesh, LengthUni
   check_scalars(mesh, scalars);
   const bool coloured = colours.rows() > 0;
   if (coloured && colours.rows() != mesh.points.rows())
-    throw std::invalid_argument("write_ply: colours need a row a vertex");
+    throw std::invalid_argument("write_ply: colours need one row per vertex");
   std::string bytes = fmt::format(
       "ply\nformat binary_little_endian 1.0\ncomment unit {}\nelement vertex {}\n"
       "property float x\nproperty float y\nproperty float z\n",

@@ -95,7 +95,7 @@ class TrcReader {
       const std::string name(trimmed(cells[c]));
       if (name.empty()) continue;
       if (!is_printable_name(name)) fail("", name, printable_name);
-      if (!known.insert(name).second) fail("", name, "each marker's name once; it stands twice");
+      if (!known.insert(name).second) fail("", name, "each marker's name once; it occurs twice");
       trc_.names.push_back(name);
     }
     if (static_cast<long long>(trc_.names.size()) != markers_)
@@ -161,8 +161,8 @@ void check(const TrcFile& recording) {
     sound = sound && !name.empty() && name.find_first_of("\t\r\n") == std::string::npos;
   if (!sound)
     throw std::invalid_argument(
-        "write_trc: a rate above 0, names without tabs, a time and a row a "
-        "name for each frame");
+        "write_trc: a rate above 0, names without tabs, and for each frame "
+        "a time and one row per name");
 }
 
 }  // namespace

@@ -62,6 +62,9 @@ class Archive {
     if (state == ARCHIVE_EOF) return std::nullopt;
     if (state < ARCHIVE_WARN || !archive_entry_pathname(entry)) unsound();
     name_ = archive_entry_pathname(entry);
+    stated_.reset();
+    if (archive_entry_size_is_set(entry))
+      stated_ = static_cast<std::uint64_t>(std::max<la_int64_t>(0, archive_entry_size(entry)));
     if (++count_ > limits_.most_files)
       throw InputError(file_, fmt::format("holds more than {0} files: expected at most {0}",
                                           limits_.most_files));
@@ -72,19 +75,27 @@ class Archive {
   }
   const std::string& name() const { return name_; }
 
+  /// Counts what the directory states of the entry, so that nothing has to be unpacked.
+  void count_stated() {
+    const std::uint64_t bytes = stated_.value_or(0);
+    counted_ = bytes > limits_.most_bytes - counted_ ? limits_.most_bytes + 1 : counted_ + bytes;
+    check_counted();
+  }
+
   /// The unpacked bytes are counted during unpacking, independently of the header.
   void unpack(const fs::path& to) {
     std::ofstream out(to, std::ios::binary);
     if (!out) throw InputError(to, "cannot be written");
     std::vector<char> bytes(kBlock);
+    std::uint64_t of_entry = 0;
     for (la_ssize_t count = 0;
          (count = archive_read_data(archive_.get(), bytes.data(), bytes.size())) != 0;) {
       if (count < 0)
         refuse(fmt::format("is damaged ({})", shown(archive_error_string(archive_.get()))));
-      unpacked_ += static_cast<std::uint64_t>(count);
-      if (unpacked_ > limits_.most_bytes)
-        throw InputError(file_, fmt::format("unpacks to more than {} MB: expected less",
-                                            limits_.most_bytes >> 20U));
+      of_entry += static_cast<std::uint64_t>(count);
+      if (stated_ && of_entry > *stated_) refuse("is damaged (longer than the zip states)");
+      counted_ += static_cast<std::uint64_t>(count);
+      check_counted();
       out.write(bytes.data(), count);
     }
     out.close();
@@ -96,6 +107,11 @@ class Archive {
   }
 
  private:
+  void check_counted() const {
+    if (counted_ > limits_.most_bytes)
+      throw InputError(file_, fmt::format("unpacks to more than {} MB: expected less",
+                                          limits_.most_bytes >> 20U));
+  }
   [[noreturn]] void unsound() const {
     throw InputError(file_, "is no sound zip: expected one that is whole and holds files");
   }
@@ -110,7 +126,8 @@ class Archive {
   Utf8Names names_;
   std::unique_ptr<archive, Free> archive_{archive_read_new()};
   std::string name_;
-  std::uint64_t unpacked_ = 0;
+  std::optional<std::uint64_t> stated_;  ///< bytes of this entry, by the header
+  std::uint64_t counted_ = 0;            ///< bytes so far
   int count_ = 0;
 };
 
@@ -139,6 +156,17 @@ Way way_of(const std::string& name, fs::path& way) {
   return hidden ? Way::left_out : Way::taken;
 }
 
+/// The next entry that is taken and where it belongs; nothing after the last.
+std::optional<Kind> next_taken(Archive& archive, fs::path& way) {
+  while (const auto kind = archive.next()) {
+    const Way leads = way_of(archive.name(), way);
+    if (leads == Way::refused)
+      archive.refuse("has a name that leads elsewhere: expected a plain one");
+    if (leads == Way::taken) return kind;
+  }
+  return std::nullopt;
+}
+
 /// A folder that is removed at the end unless it is kept.
 class Folder {
  public:
@@ -160,17 +188,25 @@ class Folder {
 
 }  // namespace
 
+std::vector<fs::path> files_in_zip(const fs::path& zip, const UnzipLimits& limits) {
+  Archive archive(zip, limits);
+  std::vector<fs::path> files;
+  fs::path way;
+  while (const auto kind = next_taken(archive, way)) {
+    archive.count_stated();
+    if (*kind == Kind::file) files.push_back(way);
+  }
+  return files;
+}
+
 void unzip(const fs::path& zip, const fs::path& folder, const UnzipLimits& limits) {
   if (fs::exists(fs::symlink_status(folder)))
     throw InputError(folder, "is there already: expected another name");
+  files_in_zip(zip, limits);
   Archive archive(zip, limits);
   Folder made(folder.parent_path() / (".part-" + folder.filename().string()));
-  while (const auto kind = archive.next()) {
-    fs::path way;
-    const Way leads = way_of(archive.name(), way);
-    if (leads == Way::refused)
-      archive.refuse("has a name that leads elsewhere: expected a plain one");
-    if (leads == Way::left_out) continue;
+  fs::path way;
+  while (const auto kind = next_taken(archive, way)) {
     const fs::path to = made.path() / way;
     const bool is_folder = *kind == Kind::folder;
     std::error_code error;

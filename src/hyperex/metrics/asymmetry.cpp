@@ -8,24 +8,13 @@
 #include <limits>
 
 #include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/sided_triangles.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 
 namespace hyperex::metrics {
 namespace {
-
-/// Marks the triangles without any vertex of side `barred`. Empty if there is no such triangle.
-std::vector<char> triangles_without(const TriMesh& rest, const std::vector<int>& side, int barred) {
-  std::vector<char> keep(static_cast<size_t>(rest.triangles.rows()), 1);
-  bool any = false;
-  for (int f = 0; f < rest.triangles.rows(); ++f) {
-    char& kept = keep[static_cast<size_t>(f)];
-    for (int k = 0; k < 3; ++k) kept &= side[static_cast<size_t>(rest.triangles(f, k))] != barred;
-    any |= kept != 0;
-  }
-  return any ? keep : std::vector<char>();
-}
 
 std::vector<int> with_counterpart(const Region* region, const Counterparts& pairs) {
   std::vector<int> kept;
@@ -45,19 +34,12 @@ Counterparts counterparts(const TriMesh& rest, const MidsagittalPlane& plane,
   for (const auto& loop : boundary_loops(rest.triangles))
     for (const int v : loop) on_border[static_cast<size_t>(v)] = 1;
   const SurfaceTree tree(rest);
-  std::vector<char> without_upper, without_lower;
-  if (!side.empty()) {
-    without_upper = triangles_without(rest, side, 1);
-    without_lower = triangles_without(rest, side, -1);
-  }
-  const std::vector<char> whole(static_cast<size_t>(rest.triangles.rows()), 1);
+  const SidedTriangles sided(rest, side);
   const auto count = static_cast<size_t>(rest.points.rows());
   Counterparts pairs{std::vector<std::array<int, 3>>(count), std::vector<Vec3>(count),
                      Eigen::VectorXd(rest.points.rows()), std::vector<char>(count, 0)};
   const auto part_of = [&](size_t i) -> const std::vector<char>* {
-    if (!side.empty() && side[i] > 0 && !without_lower.empty()) return &without_lower;
-    if (!side.empty() && side[i] < 0 && !without_upper.empty()) return &without_upper;
-    return &whole;
+    return &sided.open_to(side.empty() ? 0 : side[i]);
   };
   const auto pair = [&](size_t i, const ClosestPoint& foot) {
     const auto row = static_cast<Eigen::Index>(i);

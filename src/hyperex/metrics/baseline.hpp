@@ -8,8 +8,8 @@
 
 namespace hyperex::metrics {
 
-/// What a simulation is measured against: the scan carried by a method that is given where some
-/// landmarks went, without a model of tissue.
+/// A baseline for a simulation: the scan, displaced by a method that uses the displacements of some
+/// landmarks but no model of the tissue.
 struct Baseline {
   std::string name;  ///< "standing still", "warp, 7 points", "warp, all 68", "the same, smoothed",
                      ///< "blend shapes, 7 points", "blend shapes, all 68"

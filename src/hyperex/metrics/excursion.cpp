@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/face/canonical_face.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
+#include "hyperex/metrics/point_pairs.hpp"
 #include "hyperex/metrics/speed_floor.hpp"
 
 namespace hyperex::metrics {
@@ -102,33 +101,6 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return n > 2 && aa > still * n && bb > still * n ? ab / std::sqrt(aa * bb) : kNan;
 }
 
-/// "48" and "p48" are short names of ibug68_48.
-std::string full_name(const std::string& name) {
-  const std::string digits = name.starts_with("p") ? name.substr(1) : name;
-  const bool number =
-      !digits.empty() && digits.size() <= 2 &&
-      std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return number ? face::ibug(std::stoi(digits)) : name;
-}
-
-int column_of(const motion::Motion& motion, const std::string& full) {
-  for (size_t i = 0; i < motion.names.size(); ++i)
-    if (motion.names[i] == full || full_name(motion.names[i]) == full) return static_cast<int>(i);
-  return -1;
-}
-
-bool is_left(const std::string& full) {
-  const auto& canonical = face::canonical_face();
-  if (canonical.landmarks.contains(full))
-    return canonical.landmark(full, canonical.mesh.points).x() > 0;
-  return full.ends_with("_L");
-}
-
-std::string pair_name(const std::string& left, const std::string& right) {
-  if (left.ends_with("_L")) return left.substr(0, left.size() - 2);
-  return right + "/" + left.substr(left.rfind('_') + 1);
-}
-
 void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double lowpass_hz,
                   PairExcursion& pair) {
   const auto left = speed_mm_s(motion, {pair.left}, lowpass_hz);
@@ -167,7 +139,7 @@ PairExcursion pair_of(const motion::Motion& motion, int left, int right, double 
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
   judge_speeds(motion, floor, lowpass_hz, pair);
   pair.jitter_floor_mm = 1.96 * 2 * 1e3 * jitter_m;
-  pair.undecided = jitter_m > 0 && !(std::abs(pair.difference_mm()) >= pair.floor_mm());
+  pair.judge();
   return pair;
 }
 
@@ -229,16 +201,10 @@ Excursions excursions_of(const motion::Motion& motion, double jitter_m, double l
   all.lowpass_hz = jitter_m > 0 ? lowpass_hz : 0;
   if (motion.positions.empty()) return all;
   const SpeedFloor floor = speed_floor(motion.time_s, jitter_m, all.lowpass_hz);
-  for (size_t i = 0; i < motion.names.size(); ++i) {
-    const std::string left = full_name(motion.names[i]);
-    const std::string right = face::mirrored_landmark(left);
-    if (right == left || !is_left(left)) continue;
-    const int l = static_cast<int>(i), r = column_of(motion, right);
-    if (r < 0 || !motion.positions.front().row(l).allFinite() ||
-        !motion.positions.front().row(r).allFinite())
-      continue;
-    all.pairs.push_back(pair_of(motion, l, r, jitter_m, floor, all.lowpass_hz));
-    all.pairs.back().name = pair_name(left, right);
+  for (const PointPair& points : point_pairs(motion)) {
+    all.pairs.push_back(
+        pair_of(motion, points.left, points.right, jitter_m, floor, all.lowpass_hz));
+    all.pairs.back().name = points.name;
   }
   all.commissure = commissure_of(motion, all.lowpass_hz);
   return all;

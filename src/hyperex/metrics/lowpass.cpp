@@ -26,14 +26,22 @@ SmoothTrack unsmoothed(const std::vector<double>& time_s, const Points& track) {
   return out;
 }
 
+/// The time interval that each sample represents.
+Eigen::VectorXd intervals_of(const Eigen::VectorXd& t) {
+  const Index n = t.size();
+  const Eigen::VectorXd h = t.tail(n - 1) - t.head(n - 1);
+  Eigen::VectorXd weight(n);
+  weight(0) = h(0), weight(n - 1) = h(n - 2);
+  for (Index i = 1; i + 1 < n; ++i) weight(i) = (h(i - 1) + h(i)) / 2;
+  return weight;
+}
+
 /// Solves Reinsch's equations for the measured samples t and y: (R + lambda Q' W^-1 Q) g = Q' y, f
 /// = y - lambda W^-1 Q g. g are the second derivatives at the inner samples.
 SmoothTrack spline(const Eigen::VectorXd& t, const Points& y, double lambda) {
   const Index n = t.size(), inner = n - 2;
   const Eigen::VectorXd h = t.tail(n - 1) - t.head(n - 1);
-  Eigen::VectorXd weight(n);  // time interval that a sample represents
-  weight(0) = h(0), weight(n - 1) = h(n - 2);
-  for (Index i = 1; i + 1 < n; ++i) weight(i) = (h(i - 1) + h(i)) / 2;
+  const Eigen::VectorXd weight = intervals_of(t);
   std::vector<Eigen::Triplet<double>> q, r;
   for (Index j = 0; j < inner; ++j) {
     q.emplace_back(j, j, 1 / h(j));
@@ -87,6 +95,17 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
     out.rate.row(measured[std::size_t(i)]) = smooth.rate.row(i);
   }
   return out;
+}
+
+double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz) {
+  const auto count = Index(time_s.size()), at = Index(sample);
+  if (!(cutoff_hz > 0) || count < 3) return 1;
+  Points impulse = Points::Zero(count, 3);
+  impulse(at, 0) = 1;
+  const Eigen::VectorXd response = lowpassed(time_s, impulse, cutoff_hz).value.col(0);
+  const Eigen::VectorXd weight =
+      intervals_of(Eigen::Map<const Eigen::VectorXd>(time_s.data(), count));
+  return response.cwiseProduct(weight).norm() / weight(at);
 }
 
 double end_margin_s(double cutoff_hz) {

@@ -25,6 +25,11 @@ struct SmoothTrack {
 /// accurate.
 SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz);
 
+/// The standard deviation of a filtered sample if the track is white noise of standard deviation 1;
+/// 1 for a cut-off of 0. The filter is linear. Its matrix S fulfils S' W = W S with the diagonal
+/// matrix W of the h_i, so that the row of a sample follows from the response to an impulse there.
+double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
+
 /// Half a period of the cut-off frequency, s; 0 for a cut-off of 0.
 double end_margin_s(double cutoff_hz);
 

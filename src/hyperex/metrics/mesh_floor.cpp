@@ -71,7 +71,7 @@ void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const mot
     pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right);
     pair.twin_left_mm = greatest_mm(distance_from_rest_mm(twin, {pair.right}));
     pair.twin_right_mm = greatest_mm(distance_from_rest_mm(twin, {pair.left}));
-    pair.undecided = !(std::abs(pair.difference_mm()) >= pair.floor_mm());
+    pair.judge();
   }
 }
 

@@ -6,7 +6,6 @@
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/metrics/regions.hpp"
-#include "hyperex/simulate/load/shape_posterior.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -29,6 +28,22 @@ Eigen::Index nearest_on_its_lip(const Points& skin, const std::vector<double>& u
 
 }  // namespace
 
+DrivenMotion driven_motion(const simulate::Performance& performance,
+                           const std::vector<double>& upper_margin) {
+  const Points& skin = performance.skin_rest.points;
+  const PointsF& moved_m = performance.skin_displacement_m[std::size_t(performance.peak_frame)];
+  DrivenMotion driven{.points = {}, .places = {performance.driven_points_rest, {}}};
+  driven.places.motion_m.resize(driven.places.rest.rows());
+  for (std::size_t i = 0; i < performance.driven_names.size(); ++i) {
+    const auto row = Eigen::Index(i);
+    driven.points.push_back({performance.driven_names[i], driven.places.rest.row(row).transpose()});
+    const Eigen::Index vertex = nearest_on_its_lip(skin, upper_margin, driven.points.back());
+    driven.places.motion_m[row] = moved_m.row(vertex).cast<double>().norm();
+    driven.places.upper_margin.push_back(upper_margin[std::size_t(vertex)]);
+  }
+  return driven;
+}
+
 SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
                                  const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
   constexpr Eigen::Index most = 20000;  // vertices at once, which limits the memory
@@ -38,25 +53,16 @@ SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
           .cast<double>()
           .rowwise()
           .norm();
-  std::vector<simulate::DrivenPoint> points;
-  simulate::MovedPlaces driven = {.rest = performance.driven_points_rest, .motion_m = {}};
-  driven.motion_m.resize(driven.rest.rows());
-  for (std::size_t i = 0; i < performance.driven_names.size(); ++i) {
-    const auto row = Eigen::Index(i);
-    points.push_back({performance.driven_names[i], driven.rest.row(row).transpose()});
-    const Eigen::Index vertex = nearest_on_its_lip(skin, mesh.skin_upper_margin, points.back());
-    driven.motion_m[row] = motion_m[vertex];
-    driven.upper_margin.push_back(mesh.skin_upper_margin[std::size_t(vertex)]);
-  }
+  const DrivenMotion driven = driven_motion(performance, mesh.skin_upper_margin);
   SkinUncertainty out{Eigen::VectorXf(skin.rows()), Eigen::VectorXf(skin.rows())};
   for (Eigen::Index from = 0; from < skin.rows(); from += most) {
     const Eigen::Index rows = std::min(most, skin.rows() - from);
     const auto margin = mesh.skin_upper_margin.begin() + from;
     const simulate::MovedPlaces places{
         skin.middleRows(from, rows), motion_m.segment(from, rows), {margin, margin + rows}};
-    const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, points,
+    const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, driven.points,
                                          simulate::MuscleOptions{}.shape_sigma_m);
-    const simulate::ShapePosterior posterior(shapes, places, driven);
+    const simulate::ShapePosterior posterior(shapes, places, driven.places);
     out.distance_mm.segment(from, rows) = (1e3 * posterior.distance_m()).cast<float>();
     out.determined.segment(from, rows) = posterior.determined().cast<float>();
   }

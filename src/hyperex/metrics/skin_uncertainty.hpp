@@ -2,19 +2,32 @@
 #pragma once
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/simulate/load/shape_posterior.hpp"
 #include "hyperex/simulate/performance.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::metrics {
 
-/// What the driven points tell about the rest of the skin, given how real faces move
+/// Uncertainty of the skin between the driven points, given how real faces move
 /// (simulate/load/shape_posterior.hpp).
 struct SkinUncertainty {
   Eigen::VectorXf distance_mm;  ///< per skin vertex: expected (rms) distance from the true face
-  Eigen::VectorXf determined;   ///< per skin vertex: share of the variance that points take away
+  Eigen::VectorXf
+      determined;  ///< per skin vertex: share of the prior variance that the points remove
 };
+
+/// The driven points of a run, and the displacement of the skin at each point at the peak. For a
+/// point of a lip, the skin of that lip is used.
+struct DrivenMotion {
+  std::vector<simulate::DrivenPoint> points;
+  simulate::MovedPlaces places;
+};
+/// `upper_margin`: TissueMesh::skin_upper_margin of the run.
+DrivenMotion driven_motion(const simulate::Performance& performance,
+                           const std::vector<double>& upper_margin);
 
 /// `mesh`, `landmarks`: those of the run.
 SkinUncertainty skin_uncertainty(const simulate::Performance& performance,

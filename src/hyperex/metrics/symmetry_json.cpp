@@ -14,7 +14,7 @@ Json number(double value) {
 }
 
 Json both(double left, double right) {
-  return {{"L", number(left)}, {"R", number(right)}};
+  return {{"R", number(right)}, {"L", number(left)}};
 }
 
 Json pair_json(const PairExcursion& p) {
@@ -35,6 +35,7 @@ Json pair_json(const PairExcursion& p) {
   json["difference_mm"] = number(p.difference_mm());
   json["jitter_floor_mm"] = p.jitter_floor_mm;
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
+  json["pose_floor_mm"] = p.pose_floor_mm;
   json["floor_mm"] = number(p.floor_mm());
   json["undecided"] = p.undecided;
   return json;

@@ -51,9 +51,9 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
   const SymmetryCurve& curve = measures.curve;
   const Commissure& mouth = measures.excursions.commissure;
   write_file_atomically(file, [&](std::ostream& stream) {
-    stream << "time_s,xi_L,xi_R,S_ln,floor,S_floor,S_floor_jitter,S_floor_mesh,decided,"
-              "commissure_L_mm,commissure_R_mm,"
-              "commissure_speed_L_mm_s,commissure_speed_R_mm_s";
+    stream << "time_s,xi_R,xi_L,S_ln,floor,S_floor,S_floor_jitter,S_floor_mesh,decided,"
+              "commissure_R_mm,commissure_L_mm,"
+              "commissure_speed_R_mm_s,commissure_speed_L_mm_s";
     if (measures.map)
       stream << ",asymmetry_face_rms_mm,asymmetry_face_p95_mm,asymmetry_mouth_rms_mm,"
                 "asymmetry_mouth_p95_mm";
@@ -61,13 +61,13 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
     const std::vector<double> floors = curve.floors();
     for (size_t i = 0; i < curve.time_s.size(); ++i) {
       fmt::print(stream, "{},{},{},{},{:.9g},{},{},{},{},{},{},{},{}", field(curve.time_s[i]),
-                 field(curve.xi_left[i]), field(curve.xi_right[i]), field(curve.s[i]), curve.floor,
+                 field(curve.xi_right[i]), field(curve.xi_left[i]), field(curve.s[i]), curve.floor,
                  log_at(floors, i), log_at(curve.noise, i), log_at(curve.mesh_noise, i),
                  floors.empty()       ? ""
                  : curve.undecided(i) ? "0"
                                       : "1",
-                 at(mouth.left_mm, i), at(mouth.right_mm, i), at(mouth.left_mm_s, i),
-                 at(mouth.right_mm_s, i));
+                 at(mouth.right_mm, i), at(mouth.left_mm, i), at(mouth.right_mm_s, i),
+                 at(mouth.left_mm_s, i));
       if (measures.map) {
         const AsymmetrySummary& frame = measures.map->frames.at(i);
         fmt::print(stream, ",{},{},{},{}", field(frame.face_rms_mm), field(frame.face_p95_mm),
@@ -80,21 +80,23 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
 
 void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions) {
   write_file_atomically(file, [&](std::ostream& stream) {
-    stream << "point,excursion_L_mm,excursion_R_mm,excursion_ratio_R_L,path_L_mm,path_R_mm,"
-              "path_ratio_R_L,peak_speed_L_mm_s,peak_speed_R_mm_s,peak_speed_ratio_R_L,"
-              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,decided,"
+    stream << "point,excursion_R_mm,excursion_L_mm,excursion_ratio_R_L,path_R_mm,path_L_mm,"
+              "path_ratio_R_L,peak_speed_R_mm_s,peak_speed_L_mm_s,peak_speed_ratio_R_L,"
+              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,pose_floor_mm,floor_"
+              "mm,decided,"
               "path_floor_mm,peak_speed_floor_mm_s,path_decided,peak_speed_decided,"
               "speed_correlation_decided\n";
     for (const PairExcursion& p : excursions.pairs)
-      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", p.name,
-                 field(p.left_side.excursion_mm), field(p.right_side.excursion_mm),
-                 field(p.excursion_ratio), field(p.left_side.path_mm), field(p.right_side.path_mm),
-                 field(p.path_ratio), field(p.left_side.peak_speed_mm_s),
-                 field(p.right_side.peak_speed_mm_s), field(p.speed_ratio),
+      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+                 p.name, field(p.right_side.excursion_mm), field(p.left_side.excursion_mm),
+                 field(p.excursion_ratio), field(p.right_side.path_mm), field(p.left_side.path_mm),
+                 field(p.path_ratio), field(p.right_side.peak_speed_mm_s),
+                 field(p.left_side.peak_speed_mm_s), field(p.speed_ratio),
                  field(p.speed_correlation), field(p.difference_mm()), field(p.jitter_floor_mm),
-                 field(p.mesh_floor_mm), p.undecided ? 0 : 1, field(p.path_floor_mm),
-                 field(p.peak_speed_floor_mm_s), p.path_undecided ? 0 : 1,
-                 p.peak_speed_undecided ? 0 : 1, p.speed_correlation_undecided ? 0 : 1);
+                 field(p.mesh_floor_mm), field(p.pose_floor_mm), field(p.floor_mm()),
+                 p.undecided ? 0 : 1, field(p.path_floor_mm), field(p.peak_speed_floor_mm_s),
+                 p.path_undecided ? 0 : 1, p.peak_speed_undecided ? 0 : 1,
+                 p.speed_correlation_undecided ? 0 : 1);
   });
 }
 

@@ -24,20 +24,20 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"base_displacement_there_mm", c.base_displacement_there_mm},
           {"rms_distance_at_peak_mm", c.rms_distance_mm},
           {"mean_change_at_peak_mm", c.mean_change_mm},
-          {"mean_displacement_L_mm", c.mean_displacement_left_mm},
           {"mean_displacement_R_mm", c.mean_displacement_right_mm},
-          {"commissure_L_mm", c.commissure_left.to_mm},
+          {"mean_displacement_L_mm", c.mean_displacement_left_mm},
           {"commissure_R_mm", c.commissure_right.to_mm},
-          {"commissure_L_change_mm", c.commissure_left.change_mm()},
+          {"commissure_L_mm", c.commissure_left.to_mm},
           {"commissure_R_change_mm", c.commissure_right.change_mm()},
-          {"commissure_L_band_mm", c.commissure_left.band_mm},
+          {"commissure_L_change_mm", c.commissure_left.change_mm()},
           {"commissure_R_band_mm", c.commissure_right.band_mm},
-          {"commissure_L_from_base_mm", c.left_from_base.most_mm},
-          {"commissure_L_from_base_s", c.left_from_base.time_s},
+          {"commissure_L_band_mm", c.commissure_left.band_mm},
           {"commissure_R_from_base_mm", c.right_from_base.most_mm},
           {"commissure_R_from_base_s", c.right_from_base.time_s},
-          {"commissure_L_along_base_mm", c.left_along_base_mm},
+          {"commissure_L_from_base_mm", c.left_from_base.most_mm},
+          {"commissure_L_from_base_s", c.left_from_base.time_s},
           {"commissure_R_along_base_mm", c.right_along_base_mm},
+          {"commissure_L_along_base_mm", c.left_along_base_mm},
           {"asymmetry_rms_mm", c.asymmetry_mm},
           {"added_xi_difference", c.added_xi_difference},
           {"added_xi_floor", c.added_xi_floor},
@@ -75,7 +75,7 @@ void write_variant_excursions_csv(const std::filesystem::path& file, const Excur
     out << "variant,point,side,base_mm,variant_mm,change_mm,band_mm,decided\n";
     for (const NamedExcursions& variant : variants)
       for (std::size_t i = 0; i < base.pairs.size(); ++i)
-        for (const Side side : {Side::left, Side::right}) {
+        for (const Side side : {Side::right, Side::left}) {
           const PairExcursion& pair = variant.excursions.pairs.at(i);
           const auto change = change_of(base.pairs[i], pair, side, base.jitter_m);
           fmt::print(out, "{},{},{},{},{},{},{},{}\n", io::in_quotes_where_needed(variant.name),

@@ -5,18 +5,9 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/uncertain_pose.hpp"
 
 namespace hyperex::motion {
-
-/// The pose of the head in one sample, and its uncertainty.
-struct UncertainPose {
-  /// Maps the position of a point of the head in sample 0 to its position in this sample.
-  Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  /// Covariance of the error: a rotation (rad) about `centre` and a translation (m), in the axes of
-  /// sample 0.
-  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  Vec3 centre = Vec3::Zero();  ///< in sample 0
-};
 
 /// A landmark that is both in a motion and in the table landmark_motion().
 struct KnownLandmark {

@@ -31,6 +31,10 @@ struct Motion {
   Points at(double t) const;
 };
 
+/// The motion without the samples after `end_s`. `option`: the name of that option in errors.
+/// Throws InputError if fewer than two samples are left.
+Motion until(Motion motion, double end_s, const std::string& option);
+
 /// The name used in errors: `source`, or "motion" where that is empty.
 std::string named(const Motion& motion);
 /// Throws InputError in one line, "SOURCE: message".

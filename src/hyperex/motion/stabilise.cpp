@@ -116,7 +116,7 @@ Pairs pairs_at(const Motion& motion, const std::vector<int>& rigid, std::size_t 
   if (std::min(spread_off_line(pairs.reference), spread_off_line(pairs.current)) <
       kLeastSkullSpread)
     refuse(motion, fmt::format("at {:.4g} s the points that move with the skull lie on one line: "
-                               "head pose cannot be told from them",
+                               "head pose cannot be determined from them",
                                motion.time_s[k]));
   return pairs;
 }
@@ -147,16 +147,6 @@ Eigen::VectorXd weights_of(const Pairs& pairs, const Eigen::VectorXd& weights) {
   Eigen::VectorXd own(Eigen::Index(pairs.rows.size()));
   for (std::size_t j = 0; j < pairs.rows.size(); ++j) own(Eigen::Index(j)) = weights(pairs.rows[j]);
   return own;
-}
-
-/// Derivative of the position of a point at `arm` from the centre, with respect to a small rotation
-/// and translation.
-Eigen::Matrix<double, 3, 6> pose_derivative(const Vec3& arm) {
-  Eigen::Matrix<double, 3, 6> d;
-  d << 0, arm.z(), -arm.y(), 1, 0, 0,  //
-      -arm.z(), 0, arm.x(), 0, 1, 0,   //
-      arm.y(), -arm.x(), 0, 0, 0, 1;
-  return d;
 }
 
 /// The pose with the covariance estimated from the residuals, which assumes that the points move
@@ -203,6 +193,8 @@ void take_out(const std::vector<UncertainPose>& poses, double widening, Stabilis
     Points& seen = result.motion.positions[k];
     seen = ((seen * back.linear().transpose()).rowwise() + back.translation().transpose()).eval();
     result.motion.head_pose.push_back(at.pose);
+    result.poses.push_back(at);
+    result.poses.back().covariance *= k == 0 ? 0 : widening * widening;
     double variance = 0, count = 0;
     for (Eigen::Index p = 0; p < seen.rows(); ++p)
       if (seen.row(p).allFinite()) {
@@ -218,6 +210,14 @@ void take_out(const std::vector<UncertainPose>& poses, double widening, Stabilis
 }
 
 }  // namespace
+
+Eigen::Matrix<double, 3, 6> pose_derivative(const Vec3& arm) {
+  Eigen::Matrix<double, 3, 6> d;
+  d << 0, arm.z(), -arm.y(), 1, 0, 0,  //
+      -arm.z(), 0, arm.x(), 0, 1, 0,   //
+      arm.y(), -arm.x(), 0, 0, 0, 1;
+  return d;
+}
 
 const std::vector<std::string>& default_rigid_points() {
   static const std::vector<std::string> names = {
@@ -258,6 +258,7 @@ StabilisedMotion with_still_head(const Motion& motion) {
   result.motion = motion;
   const std::size_t samples = motion.positions.size();
   result.motion.head_pose.assign(samples, Eigen::Isometry3d::Identity());
+  result.poses.assign(samples, {});
   result.shift_uncertainty_m.assign(samples, 0);
   result.turn_uncertainty_rad.assign(samples, 0);
   return result;

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/uncertain_pose.hpp"
 
 namespace hyperex::motion {
 
@@ -27,6 +28,8 @@ struct StabilisedMotion {
   /// comes from given points, the bounds are computed from their residuals alone: points that move
   /// together as the head would are not detected. 0 for sample 0.
   std::vector<double> shift_uncertainty_m, turn_uncertainty_rad;
+  /// The pose of each sample, with the covariance that belongs to these bounds.
+  std::vector<UncertainPose> poses;
 };
 
 /// A pose needs at least three of these points in every sample, not on a line: the eye corners, the

@@ -98,7 +98,7 @@ std::vector<WildSample> jumps_of(const Motion& m) {
   return jumps;
 }
 
-/// `at`: the motion's positions, as they are to be judged.
+/// `at`: the positions of the motion that are evaluated.
 void check_reach(const Motion& motion, const std::vector<Points>& at, double farthest_m) {
   std::vector<std::size_t> first(motion.names.size(), at.size());  // sample of the first reading
   for (std::size_t k = 0; k < at.size(); ++k)

@@ -5,6 +5,7 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/fem/element/tet4.hpp"
+#include "hyperex/geometry/smooth_step.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::muscles {
@@ -12,12 +13,6 @@ namespace {
 
 /// Where the weight is below this, the tissue is not pulled.
 constexpr double kLeastWeight = 1e-3;
-
-/// Rises smoothly from 0 at x = -1 to 1 at x = 1.
-double smooth_step(double x) {
-  const double t = std::clamp(0.5 * (x + 1), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
 
 bool on_lip(MuscleLip lip, const tissue::TissueMesh& mesh, Eigen::Index tet) {
   if (lip == MuscleLip::both) return true;
@@ -50,7 +45,8 @@ Eigen::VectorXd muscle_force(const MuscleLine& line, const TemplateMuscle& muscl
     const OnLine near = nearest_on_line(line, centre);
     double weight = std::exp(-std::pow(near.distance_m / reach, 2));
     if (shape.midline_m > 0)
-      weight *= smooth_step((line.left ? 1 : -1) * frame.local(centre).x() / shape.midline_m);
+      weight *=
+          smooth_step(0.5 * ((line.left ? 1 : -1) * frame.local(centre).x() / shape.midline_m + 1));
     if (weight < kLeastWeight) continue;
     const fem::Tet4 tet = fem::make_tet4(corner);
     for (int a = 0; a < 4; ++a) {

@@ -13,10 +13,10 @@ namespace {
 using Eigen::Index;
 using Block = Eigen::MatrixXd;  // rows: coordinates of some vertices; columns: frames
 
-// What is left out of the shapes that span many frames, as a share of the tolerance.
+// The allowed error of the shapes that span many frames, as a share of the tolerance.
 constexpr double kSpanShare = 0.02;
 
-/// Of a wide matrix, N x rank, through X X^T.
+/// Right singular vectors of a wide matrix X, N x rank, computed from X X^T.
 Eigen::MatrixXd right_vectors_of_wide(const Eigen::MatrixXd& wide) {
   Eigen::VectorXd values;
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(wide.rows(), wide.rows());
@@ -25,8 +25,9 @@ Eigen::MatrixXd right_vectors_of_wide(const Eigen::MatrixXd& wide) {
   return (wide.transpose() * left) * values.cwiseSqrt().cwiseInverse().asDiagonal();
 }
 
-/// Of the 3|V| x N matrix X of the frames, orthonormal, N x rank, through the smaller one of X^T X
-/// and X X^T, or where both are large through shapes that leave nothing near the tolerance.
+/// Right singular vectors of the 3|V| x N matrix X of the frames (orthonormal, N x rank), computed
+/// from the smaller one of X^T X and X X^T. If both are large, X is first reduced to shapes whose
+/// error is far below the tolerance.
 Eigen::MatrixXd right_singular_vectors(const std::vector<PointsF>& frames, double tolerance) {
   const auto n = static_cast<Index>(frames.size());
   const Index coordinates = 3 * frames.front().rows();

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/report/mouth_lining.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -32,6 +32,17 @@ bool is_mouth(const std::vector<int>& loop, const Points& points, const FaceCorn
   return off.norm() < 0.4 * across.norm() && most - least > 0.6 * across.squaredNorm();
 }
 
+/// About the middle between the corners of an eye.
+bool is_eye(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
+  const Vec3 centre = centre_of(loop, points);
+  for (std::size_t side = 0; side < 2; ++side)
+    if (const auto& inner = corners.inner[side]; inner) {
+      const Vec3& outer = corners.outer[side];
+      if ((centre - (*inner + outer) / 2).norm() < 0.5 * (*inner - outer).norm()) return true;
+    }
+  return false;
+}
+
 /// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
 bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
   const Vec3 centre = centre_of(loop, points);
@@ -40,28 +51,63 @@ bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceC
   return share > 0 && share < 1;
 }
 
+Vec3 up_of(const Opening& opening, const FaceCorners& corners) {
+  return opening.inward.cross(corners.outer[1] - corners.outer[0]).normalized();
+}
+
+/// Half of an opening's height.
+double half_height(const Opening& opening, const Points& points, const FaceCorners& corners) {
+  const Vec3 centre = centre_of(opening.loop, points), up = up_of(opening, corners);
+  double half_m = 0;
+  for (const int v : opening.loop)
+    half_m = std::max(half_m, std::abs(up.dot(points.row(v).transpose() - centre)));
+  return half_m;
+}
+
 /// How deep a pocket may reach behind an opening before it shows behind the scan in profile: as far
 /// as the scan's border at the heights that the pocket has, less a clearance.
 /// Infinite where the border is elsewhere, as on a whole head.
-double room_behind(const Opening& opening, const std::vector<int>& border, const Points& points,
+double room_behind(const Opening& opening, double low_m, double high_m,
+                   const std::vector<int>& border, const Points& points,
                    const FaceCorners& corners) {
   // Lips that smile or open take the pocket along, up, down and back.
   constexpr double moves_m = 0.01, clear_m = 0.014, least_m = 0.004;
   const Vec3 centre = centre_of(opening.loop, points);
-  const Vec3 up = opening.inward.cross(corners.outer[1] - corners.outer[0]).normalized();
-  double half_m = 0;
-  for (const int v : opening.loop)
-    half_m = std::max(half_m, std::abs(up.dot(points.row(v).transpose() - centre)));
+  const Vec3 up = up_of(opening, corners);
   double room_m = INFINITY;
   for (const int v : border) {
     const Vec3 off = points.row(v).transpose() - centre;
-    if (std::abs(up.dot(off)) > 1.35 * half_m + moves_m) continue;
+    const double height = up.dot(off);
+    if (height < low_m - moves_m || height > high_m + moves_m) continue;
     room_m = std::min(room_m, off.dot(opening.inward) - clear_m);
   }
   return std::max(room_m, least_m);
 }
 
-std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners) {
+/// A pocket as wide as its edge: two rings and a point.
+void hang_pocket(Opening& opening, const Points& points, const std::array<Srgb, 3>& colours) {
+  constexpr std::array<std::array<double, 2>, 2> depth_and_width = {{{0.35, 1.05}, {0.9, 0.8}}};
+  const auto n = Index(opening.loop.size());
+  const Points edge = points(opening.loop, Eigen::all);
+  const Vec3 centre = centre_of(opening.loop, points);
+  opening.rest.resize(3 * n + 1, 3);
+  opening.rest.topRows(n) = edge;
+  opening.colours.assign(std::size_t(n), colours[0]);
+  for (std::size_t r = 0; r < 2; ++r) {
+    const auto [depth, width] = depth_and_width[r];
+    const Vec3 at = (1 - width) * centre + depth * opening.depth_m * opening.inward;
+    opening.rest.middleRows(Index(r + 1) * n, n) = (width * edge).rowwise() + at.transpose();
+    opening.rings.push_back({width, 1 - width, 0});
+    opening.colours.insert(opening.colours.end(), std::size_t(n), colours[r + 1]);
+  }
+  opening.rest.row(3 * n) = (centre + opening.depth_m * opening.inward).transpose();
+  opening.rings.push_back({0, 1, 0});
+  opening.colours.push_back(colours[2]);
+  opening.jaw = Eigen::VectorXd::Zero(n);
+}
+
+std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners,
+                                 const anatomy::Teeth* teeth) {
   constexpr double longest_m = 0.25;
   const std::vector<std::vector<int>> loops = boundary_loops(skin.triangles);
   std::vector<double> length_m;
@@ -79,62 +125,50 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
     // The edge of a lip is rolled in; the face's own direction keeps the pocket behind it.
     openings.push_back({loops[i], -(corners.forward + 0.5 * outward).normalized(),
                         std::min(0.03, 0.25 * length_m[i])});
-    if (is_mouth(loops[i], skin.points, corners)) {
-      // As deep as a row of teeth, and wide enough for it between the cheeks.
-      openings.back().depth_m = 0.5 * length_m[i];
-      openings.back().rings = {{{0.22, 1.35}, {0.95, 1.3}}};
+    Opening& opening = openings.back();
+    opening.mouth = is_mouth(loops[i], skin.points, corners);
+    // As deep as a row of teeth.
+    if (opening.mouth) opening.depth_m = 0.5 * length_m[i];
+    const auto room = [&](double low_m, double high_m) {
+      return room_behind(opening, low_m, high_m, loops[std::size_t(border)], skin.points, corners);
+    };
+    if (opening.mouth) {
+      line_mouth(opening, skin, corners, teeth,
+                 [&](double height) { return room(height, height); });
+    } else {
+      const double half_m = 1.35 * half_height(opening, skin.points, corners);
+      opening.depth_m = std::min(opening.depth_m, room(-half_m, half_m));
+      hang_pocket(opening, skin.points,
+                  is_eye(loops[i], skin.points, corners) ? kLidColours : kPocketColours);
     }
-    openings.back().depth_m =
-        std::min(openings.back().depth_m,
-                 room_behind(openings.back(), loops[std::size_t(border)], skin.points, corners));
   }
   return openings;
 }
 
-/// The part of a sphere between two angles from its gaze, radians.
-TriMesh zone(const Eyeball& eye, double from, double to, int rings) {
-  constexpr int sectors = 32;
-  const Vec3 x = eye.gaze.unitOrthogonal(), y = eye.gaze.cross(x);
-  TriMesh mesh;
-  mesh.points.resize((rings + 1) * sectors, 3);
-  for (int i = 0; i <= rings; ++i)
-    for (int k = 0; k < sectors; ++k) {
-      const double polar = from + (to - from) * i / rings;
-      const double turn = 2 * std::numbers::pi * k / sectors;
-      const Vec3 out =
-          std::cos(polar) * eye.gaze + std::sin(polar) * (std::cos(turn) * x + std::sin(turn) * y);
-      mesh.points.row(i * sectors + k) = (eye.centre + eye.radius_m * out).transpose();
-    }
-  mesh.triangles.resize(2 * rings * sectors, 3);
-  Index row = 0;
-  for (int i = 0; i < rings; ++i)
-    for (int k = 0; k < sectors; ++k) {
-      const int a = i * sectors + k, b = i * sectors + (k + 1) % sectors;
-      mesh.triangles.row(row++) << a, a + sectors, b + sectors;
-      mesh.triangles.row(row++) << a, b + sectors, b;
-    }
-  return mesh;
-}
-
 }  // namespace
 
-FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks) {
+FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks,
+                         const anatomy::Teeth* teeth) {
   FaceBacking backing;
   const auto corners = anatomy::face_corners(landmarks);
   if (!corners) return backing;
   backing.forward = corners->forward;
-  backing.openings = openings_of(skin, *corners);
+  backing.openings = openings_of(skin, *corners, teeth);
   backing.eyeballs = anatomy::eyeballs_behind(skin.points, *corners);
   return backing;
 }
 
-FaceBacking face_backing(const simulate::Performance& performance) {
+io::Landmarks landmarks_at_rest(const simulate::Performance& performance) {
   io::Landmarks landmarks;
   const motion::Motion& tracks = performance.landmarks;
   if (!tracks.positions.empty())
     for (std::size_t i = 0; i < tracks.names.size(); ++i)
       landmarks[tracks.names[i]] = tracks.positions.front().row(Index(i)).transpose();
-  return face_backing(performance.skin_rest, landmarks);
+  return landmarks;
+}
+
+FaceBacking face_backing(const simulate::Performance& performance, const anatomy::Teeth* teeth) {
+  return face_backing(performance.skin_rest, landmarks_at_rest(performance), teeth);
 }
 
 Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward) {
@@ -146,40 +180,46 @@ Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Ve
   return 1 - (1 - least) * behind.max(0).min(1);
 }
 
-TriMesh pocket(const Opening& opening, const Points& points) {
-  const auto n = Index(opening.loop.size());
-  const Vec3 centre = centre_of(opening.loop, points);
+double light_between_lips(const std::vector<int>& loop, const Points& points) {
+  constexpr double least = 0.15, falls_m = 1.5e-3;
+  const Vec3 first = points.row(loop.front());
+  Vec3 area = Vec3::Zero();
+  double length_m = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3 from = points.row(loop[i]), to = points.row(loop[(i + 1) % loop.size()]);
+    area += (from - first).cross(to - first) / 2;
+    length_m += (to - from).norm();
+  }
+  return 1 - (1 - least) * std::exp(-2 * area.norm() / (length_m * falls_m));
+}
+
+TriMesh pocket(const Opening& opening, const Points& points, const Eigen::Isometry3d& jaw) {
+  const auto n = Index(opening.loop.size()), rings = Index(opening.rings.size());  // with the edge
+  const Points moved = points(opening.loop, Eigen::all) - opening.rest.topRows(n);
+  const Eigen::RowVector3d centre = moved.colwise().mean();
   TriMesh mesh;
-  mesh.points.resize(3 * n + 1, 3);
-  const auto ring = [&](Index which, double depth, double width) {
-    for (Index i = 0; i < n; ++i) {
-      const Vec3 edge = points.row(opening.loop[std::size_t(i)]);
-      mesh.points.row(which * n + i) =
-          (centre + width * (edge - centre) + depth * opening.depth_m * opening.inward).transpose();
-    }
-  };
-  ring(0, 0, 1);
-  ring(1, opening.rings[0].depth, opening.rings[0].width);
-  ring(2, opening.rings[1].depth, opening.rings[1].width);
-  mesh.points.row(3 * n) = (centre + opening.depth_m * opening.inward).transpose();
-  mesh.triangles.resize(5 * n, 3);
+  mesh.points = opening.rest;
+  mesh.points.topRows(n) += moved;
+  for (Index v = n; v < mesh.points.rows(); ++v) {
+    const bool point = v == rings * n;
+    const PocketRing& ring = opening.rings[std::size_t(v / n - 1)];
+    const Vec3 rest = opening.rest.row(v);
+    const double share = ring.jaw * (point ? 0.5 : opening.jaw[v % n]);
+    mesh.points.row(v) += ring.edge * moved.row(v % n) + ring.centre * centre +
+                          share * (jaw * rest - rest).transpose();
+  }
+  mesh.triangles.resize((2 * rings - 1) * n, 3);
   Index row = 0;
-  for (Index i = 0; i < n; ++i) {
-    const int a = int(i), b = int((i + 1) % n), m = int(n);
-    for (const int r : {0, m}) {
+  const int m = int(n), last = m * int(rings - 1);
+  for (int a = 0; a < m; ++a) {
+    const int b = (a + 1) % m;
+    for (int r = 0; r < last; r += m) {
       mesh.triangles.row(row++) << r + b, r + a, r + m + a;
       mesh.triangles.row(row++) << r + b, r + m + a, r + m + b;
     }
-    mesh.triangles.row(row++) << 2 * m + b, 2 * m + a, 3 * m;
+    mesh.triangles.row(row++) << last + b, last + a, last + m;
   }
   return mesh;
-}
-
-std::vector<TriMesh> eyeball_parts(const Eyeball& eyeball) {
-  // An iris of 11.7 mm and a pupil of 4 mm on a ball of 24 mm, as angles from the gaze.
-  constexpr double pupil = 0.167, iris = 0.51;
-  return {zone(eyeball, iris, std::numbers::pi, 16), zone(eyeball, pupil, iris, 3),
-          zone(eyeball, 0, pupil, 2)};
 }
 
 }  // namespace hyperex::report

@@ -5,8 +5,13 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/render/sky_share.hpp"
+#include "hyperex/report/border_fade.hpp"
+#include "hyperex/report/complexion.hpp"
+#include "hyperex/report/eye_model.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/report/jaw_turns.hpp"
+#include "hyperex/report/mouth_colours.hpp"
 #include "hyperex/report/skin_view.hpp"
 
 namespace hyperex::report {
@@ -18,6 +23,15 @@ namespace {
 
 json points_at(const PointsF& points, BinaryBlock& block) {
   return block.add("float32", points.data(), points.size());
+}
+
+/// Shares from 0 to 1, a byte each.
+template <class Shares>
+json share_bytes(const Shares& shares, BinaryBlock& block) {
+  std::vector<std::uint8_t> bytes;
+  for (const auto share : shares)
+    bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * share)));
+  return block.add(bytes);
 }
 
 json triple(const Vec3& v) {
@@ -34,16 +48,19 @@ json quantised(const PointsF& mode, float largest, const char* type, BinaryBlock
   return {{"step_m", step_m}, {"values", block.add(type, steps.data(), steps.size())}};
 }
 
-/// {"points": ..., "triangles": ...} of a mesh that does not change its shape: points in steps of a
-/// 32767th of its extent, from a middle.
-json rigid_mesh(const TriMesh& mesh, BinaryBlock& block) {
-  const Vec3 low = mesh.points.colwise().minCoeff(), high = mesh.points.colwise().maxCoeff();
+/// {"middle": ..., "points": ...} of points in steps of a 32767th of their extent, from a middle.
+json still_points(const Points& points, BinaryBlock& block) {
+  const Vec3 low = points.colwise().minCoeff(), high = points.colwise().maxCoeff();
   const Vec3 middle = (low + high) / 2;
-  const PointsF about = (mesh.points.rowwise() - middle.transpose()).cast<float>();
+  const PointsF about = (points.rowwise() - middle.transpose()).cast<float>();
+  return {{"middle", triple(middle)},
+          {"points", quantised<std::int16_t>(about, about.cwiseAbs().maxCoeff(), "int16", block)}};
+}
+
+/// still_points() and "triangles" of a mesh that does not change its shape.
+json rigid_mesh(const TriMesh& mesh, BinaryBlock& block) {
+  json out = still_points(mesh.points, block);
   const bool few = mesh.points.rows() <= std::numeric_limits<std::int16_t>::max();
-  json out = {
-      {"middle", triple(middle)},
-      {"points", quantised<std::int16_t>(about, about.cwiseAbs().maxCoeff(), "int16", block)}};
   if (few) {
     std::vector<std::int16_t> corners(mesh.triangles.data(),
                                       mesh.triangles.data() + mesh.triangles.size());
@@ -70,9 +87,13 @@ json skin_section(const ReportInput& input, BinaryBlock& block) {
         {"uv", block.add("float32", view.uv.data(), view.uv.size())},
         {"skin_vertex", block.add(view.skin_vertex)},
         {"triangles", block.add("int32", view.triangles.data(), view.triangles.size())}};
-  } else if (const auto colour = skin_colour(performance, input.scan); colour.rows() > 0) {
-    skin["colour"] = block.add("uint8", colour.data(), colour.size());
+  } else {
+    auto colour = skin_colour(performance, input.scan);
+    if (colour.rows() == 0) colour = complexion(performance, input.skin_tone);
+    if (colour.rows() > 0) skin["colour"] = block.add("uint8", colour.data(), colour.size());
   }
+  skin["light"] = share_bytes(render::sky_share(performance.skin_rest), block);
+  skin["fade"] = share_bytes(border_fade(performance.skin_rest), block);
   return skin;
 }
 
@@ -118,22 +139,20 @@ json mirror_section(const metrics::RestAsymmetry& at_rest, BinaryBlock& block) {
 json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, BinaryBlock& block) {
   json section = json::array();
   const auto add = [&](const char* jaw, const char* part, const TriMesh& mesh,
-                       const TriMesh& crowns) {
+                       const TriMesh& crowns, const Srgb& colour) {
     if (mesh.triangles.rows() == 0) return;
     json one = rigid_mesh(mesh, block);
-    const Eigen::VectorXd light = light_in_mouth(mesh, crowns, forward);
-    std::vector<std::uint8_t> bytes;
-    for (const double share : light)
-      bytes.push_back(static_cast<std::uint8_t>(std::lround(255 * share)));
-    one["light"] = block.add(bytes);
+    one["light"] = share_bytes(light_in_mouth(mesh, crowns, forward), block);
     one["jaw"] = jaw;
     one["part"] = part;
+    one["colour"] = colour;
     section.push_back(std::move(one));
   };
-  add("upper", "crowns", teeth.upper.crowns, teeth.upper.crowns);
-  add("upper", "gum", teeth.upper.gum, teeth.upper.crowns);
-  add("lower", "crowns", teeth.lower.crowns, teeth.lower.crowns);
-  add("lower", "gum", teeth.lower.gum, teeth.lower.crowns);
+  add("upper", "crowns", teeth.upper.crowns, teeth.upper.crowns, kCrownColour);
+  add("upper", "gum", teeth.upper.gum, teeth.upper.crowns, kGumColour);
+  add("lower", "crowns", teeth.lower.crowns, teeth.lower.crowns, kCrownColour);
+  add("lower", "gum", teeth.lower.gum, teeth.lower.crowns, kGumColour);
+  add("lower", "tongue", teeth.tongue, teeth.lower.crowns, kTongueColour);
   return section;
 }
 
@@ -150,21 +169,45 @@ json jaw_section(const simulate::Performance& performance, BinaryBlock& block) {
   return block.add(values);
 }
 
-Vec3 add_backing(const simulate::Performance& performance, BinaryBlock& block, json& manifest) {
-  const FaceBacking backing = face_backing(performance);
+namespace {
+
+json opening_section(const Opening& opening, BinaryBlock& block) {
+  json rings = json::array();
+  for (const PocketRing& ring : opening.rings) rings.push_back({ring.edge, ring.centre, ring.jaw});
+  std::vector<std::uint8_t> colours;
+  for (const Srgb& colour : opening.colours)
+    colours.insert(colours.end(), colour.begin(), colour.end());
+  const std::vector<float> jaw(opening.jaw.begin(), opening.jaw.end());
+  json out = still_points(opening.rest, block);
+  out["loop"] = block.add(opening.loop);
+  out["rings"] = rings;
+  out["jaw"] = block.add(jaw);
+  out["colours"] = block.add(colours);
+  return out;
+}
+
+}  // namespace
+
+Vec3 add_backing(const ReportInput& input, BinaryBlock& block, json& manifest) {
+  const FaceBacking backing = face_backing(input.performance, input.teeth);
   manifest["openings"] = json::array();
   for (const Opening& opening : backing.openings)
-    manifest["openings"].push_back({{"loop", block.add(opening.loop)},
-                                    {"inward", triple(opening.inward)},
-                                    {"depth_m", opening.depth_m},
-                                    {"rings",
-                                     {{opening.rings[0].depth, opening.rings[0].width},
-                                      {opening.rings[1].depth, opening.rings[1].width}}}});
+    manifest["openings"].push_back(opening_section(opening, block));
   manifest["eyeballs"] = json::array();
-  for (const Eyeball& eyeball : backing.eyeballs)
+  const auto lights = light_on_eyes(backing.eyeballs, input.performance.skin_rest);
+  for (std::size_t i = 0; i < lights.size(); ++i) {
+    const Eyeball& eyeball = backing.eyeballs[i];
     manifest["eyeballs"].push_back({{"centre", triple(eyeball.centre)},
                                     {"gaze", triple(eyeball.gaze)},
-                                    {"radius_m", eyeball.radius_m}});
+                                    {"radius_m", eyeball.radius_m},
+                                    {"light", share_bytes(lights[i], block)}});
+  }
+  if (!backing.eyeballs.empty()) {
+    const EyeModel& eye = eye_model();
+    manifest["eye_model"] = rigid_mesh(eye.mesh, block);
+    manifest["eye_model"]["colours"] =
+        block.add("uint8", eye.colours.data(), std::size_t(eye.colours.size()));
+  }
   return backing.forward;
 }
 

@@ -45,6 +45,14 @@ void check_glb(const simulate::Performance& performance, const GlbOptions& optio
   if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
+/// The jaw in some frames.
+std::vector<Eigen::Isometry3d> jaws_of(const simulate::Performance& performance,
+                                       const std::vector<int>& frames) {
+  std::vector<Eigen::Isometry3d> jaws;
+  for (const int f : frames) jaws.push_back(performance.jaw_now_from_rest[std::size_t(f)]);
+  return jaws;
+}
+
 /// Poses of the skin that fill what the others leave of the file, and how they follow each other.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
@@ -60,7 +68,9 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
   if (!openings.empty())
-    add_pocket_targets(mesh.primitives[1], arrays, openings, rest, cavity, targets);
+    add_pocket_targets(mesh.primitives[1], arrays, openings, rest, cavity, targets,
+                       options.teeth ? jaws_of(performance, targets.keys.frames)
+                                     : std::vector<Eigen::Isometry3d>{});
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();
@@ -78,10 +88,10 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   const SkinView view = skin_view(performance, scan);
   const tinygltf::Primitive skin = skin_primitive(model, arrays, view, performance, scan);
   // Before the poses, which fill what the others leave of the file.
-  const FaceBacking backing = face_backing(performance);
+  const FaceBacking backing = face_backing(performance, options.teeth);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, nodes);
-  if (options.teeth) add_teeth(model, arrays, *options.teeth, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
+  if (options.teeth) add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
 
   tinygltf::Mesh mesh;
   mesh.name = "skin";

@@ -14,7 +14,7 @@ struct GlbOptions {
   const anatomy::Teeth* teeth = nullptr;  ///< at rest, scan frame; null: none
 };
 
-/// What was written.
+/// Report on the written file.
 struct GlbReport {
   std::size_t keys = 0;
   double max_error_m = 0;  ///< largest distance of any vertex in any frame from its true place
@@ -23,17 +23,18 @@ struct GlbReport {
 
 /// Writes the moving skin as binary glTF 2.0, metres: one mesh, whose morph targets are poses of
 /// the performance (pose_keys.hpp), named by their times ("pose_0.933s"), with weights from 0 to 1,
-/// animated linearly at the frame times counted from the first frame. As few poses as
-/// options.tolerance_m allows; where they would take more than options.max_bytes fewer, and the
-/// report says which error remains, but always one. Normals move too. With the scan's texture
-/// (vertices split at seams, the skin's order kept by extras.skin_vertices otherwise) or its vertex
-/// colours, else a plain skin tone. A performance without motion is written as a still mesh. Teeth
-/// are nodes of their own, upper_teeth and lower_teeth; the lower ones move by rotation and
-/// translation, as performance.jaw_now_from_rest has them. The report's eyeballs, where landmarks
-/// tell of eyes, are eye_R and eye_L, which stand still. Its pockets behind mouth, eyes and
-/// nostrils are a second part of the skin's mesh, "cavity", unlit, with the same morph targets.
-/// Throws InputError where the file cannot be written, std::invalid_argument where the performance
-/// and the scan do not belong together.
+/// animated linearly at the frame times counted from the first frame. The number of poses is the
+/// least that options.tolerance_m allows. If these would take more than options.max_bytes, fewer
+/// poses are written (at least one), and the report states the remaining error. Normals move too.
+/// The skin has the scan's texture or its vertex colours, otherwise a plain skin tone. Vertices are
+/// split at seams of the texture; extras.skin_vertices then gives the skin's order. A performance
+/// without motion is written as a still mesh. Teeth are nodes of their own, upper_teeth and
+/// lower_teeth; the lower ones move by rotation and translation, as performance.jaw_now_from_rest
+/// has them. If the landmarks include the corners of the eyes, the report's eyeballs are nodes
+/// eye_R and eye_L, which do not move. The pockets behind mouth, eyes and nostrils are a second
+/// primitive of the skin's mesh, "cavity", unlit, with the same morph targets. Throws InputError
+/// where the file cannot be written, std::invalid_argument where the performance and the scan do
+/// not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options = {});
 

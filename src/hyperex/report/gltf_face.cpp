@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/report/gltf_face.hpp"
 
-#include <algorithm>
 #include <cmath>
+
+#include "hyperex/report/eye_model.hpp"
+#include "hyperex/report/mouth_colours.hpp"
 
 namespace hyperex::report {
 
@@ -10,19 +12,22 @@ using Eigen::Index;
 
 namespace {
 
+double linear(std::uint8_t byte) {
+  const double s = byte / 255.0;
+  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+}
+
 /// glTF's COLOR_0 is linear; 16 bits keep the dark tones apart. -1 where there are none.
 template <class Rows>
 int add_colours(GltfArrays& arrays, const Rows& srgb) {
   if (srgb.rows() == 0) return -1;
-  const auto linear = [](std::uint8_t byte) {
-    const double s = byte / 255.0;
-    const double l = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-    return static_cast<std::uint16_t>(std::lround(65535 * l));
+  const auto sixteen = [](std::uint8_t byte) {
+    return static_cast<std::uint16_t>(std::lround(65535 * linear(byte)));
   };
   std::vector<std::uint16_t> values;
   values.reserve(srgb.size());
   for (Index v = 0; v < srgb.rows(); ++v) {
-    for (int k = 0; k < 3; ++k) values.push_back(linear(srgb(v, k)));
+    for (int k = 0; k < 3; ++k) values.push_back(sixteen(srgb(v, k)));
     values.push_back(65535);  // a face is opaque, whatever a scanner left in alpha
   }
   const int view = arrays.view(values.data(), values.size() * 2, TINYGLTF_TARGET_ARRAY_BUFFER);
@@ -55,20 +60,35 @@ tinygltf::Material plain_material(const char* name, std::vector<double> colour, 
   return material;
 }
 
-/// Adds a node with crowns and gum of one jaw; its number, -1 where there are none.
-int add_jaw(tinygltf::Model& model, GltfArrays& arrays, const anatomy::JawTeeth& jaw,
-            const std::string& name, int first_material) {
+/// How much light falls on each vertex, as COLOR_0 in all three channels.
+int add_light(GltfArrays& arrays, const Eigen::VectorXd& light) {
+  std::vector<std::uint16_t> values;
+  for (const double share : light) {
+    values.insert(values.end(), 3, static_cast<std::uint16_t>(std::lround(65535 * share)));
+    values.push_back(65535);
+  }
+  const int view = arrays.view(values.data(), values.size() * 2, TINYGLTF_TARGET_ARRAY_BUFFER);
+  return arrays.accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                         std::size_t(light.size()), true);
+}
+
+/// Adds a node with the parts of one jaw, in the order of their materials; its number, -1 where
+/// there are none.
+int add_jaw(tinygltf::Model& model, GltfArrays& arrays, const std::vector<const TriMesh*>& parts,
+            const Vec3& forward, const std::string& name, int first_material) {
   tinygltf::Mesh mesh;
   mesh.name = name;
-  for (const TriMesh* part : {&jaw.crowns, &jaw.gum}) {
-    if (part->triangles.rows() == 0) continue;
-    const PointsF points = part->points.cast<float>();
+  for (std::size_t i = 0; i < parts.size(); ++i) {
+    const TriMesh& part = *parts[i];
+    if (part.triangles.rows() == 0) continue;
+    const PointsF points = part.points.cast<float>();
     tinygltf::Primitive primitive;
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = arrays.vectors(points, true);
-    primitive.attributes["NORMAL"] = arrays.vectors(vertex_normals(points, part->triangles), false);
-    primitive.indices = arrays.triangles(part->triangles);
-    primitive.material = first_material + (part == &jaw.gum ? 1 : 0);
+    primitive.attributes["NORMAL"] = arrays.vectors(vertex_normals(points, part.triangles), false);
+    primitive.attributes["COLOR_0"] = add_light(arrays, light_in_mouth(part, *parts[0], forward));
+    primitive.indices = arrays.triangles(part.triangles);
+    primitive.material = first_material + int(i);
     mesh.primitives.push_back(std::move(primitive));
   }
   if (mesh.primitives.empty()) return -1;
@@ -78,6 +98,10 @@ int add_jaw(tinygltf::Model& model, GltfArrays& arrays, const anatomy::JawTeeth&
   node.mesh = static_cast<int>(model.meshes.size()) - 1;
   model.nodes.push_back(node);
   return static_cast<int>(model.nodes.size()) - 1;
+}
+
+std::vector<double> base_colour(const Srgb& colour) {
+  return {linear(colour[0]), linear(colour[1]), linear(colour[2]), 1};
 }
 
 }  // namespace
@@ -92,31 +116,34 @@ void begin_face(tinygltf::Model& model) {
 }
 
 void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,
-              FaceNodes& nodes) {
+              const TriMesh& skin, FaceNodes& nodes) {
   if (eyeballs.empty()) return;
-  const int first = static_cast<int>(model.materials.size());
-  model.materials.push_back(plain_material("sclera", {0.85, 0.82, 0.78, 1}, 0.35));
-  model.materials.push_back(plain_material("iris", {0.153, 0.105, 0.065, 1}, 0.35));
-  model.materials.push_back(plain_material("pupil", {0.007, 0.006, 0.005, 1}, 0.35));
+  const EyeModel& eye = eye_model();
+  const int material = static_cast<int>(model.materials.size());
+  model.materials.push_back(plain_material("eye", {1, 1, 1, 1}, 0.12));
+  const std::vector<Eigen::VectorXf> lights = light_on_eyes(eyeballs, skin);
   for (std::size_t side = 0; side < eyeballs.size(); ++side) {
-    const Eyeball& eye = eyeballs[side];
+    const Eyeball& ball = eyeballs[side];
+    const Eigen::VectorXf& light = lights[side];
+    render::VertexColours colours = eye.colours;
+    for (Index v = 0; v < colours.rows(); ++v)
+      for (int k = 0; k < 3; ++k)
+        colours(v, k) = static_cast<std::uint8_t>(std::lround(float(colours(v, k)) * light[v]));
+    const Points out = eye.mesh.points * looking_along(ball.gaze).toRotationMatrix().transpose();
+    tinygltf::Primitive primitive;
+    primitive.mode = TINYGLTF_MODE_TRIANGLES;
+    primitive.attributes["POSITION"] = arrays.vectors((ball.radius_m * out).cast<float>(), true);
+    primitive.attributes["NORMAL"] = arrays.vectors(out.cast<float>(), false);
+    primitive.attributes["COLOR_0"] = add_colours(arrays, colours);
+    primitive.indices = arrays.triangles(eye.mesh.triangles);
+    primitive.material = material;
     tinygltf::Mesh mesh;
     mesh.name = side == 0 ? "eye_R" : "eye_L";
-    for (const TriMesh& part : eyeball_parts(eye)) {
-      tinygltf::Primitive primitive;
-      primitive.mode = TINYGLTF_MODE_TRIANGLES;
-      const Points about = part.points.rowwise() - eye.centre.transpose();
-      const Points out = about / eye.radius_m;
-      primitive.attributes["POSITION"] = arrays.vectors(about.cast<float>(), true);
-      primitive.attributes["NORMAL"] = arrays.vectors(out.cast<float>(), false);
-      primitive.indices = arrays.triangles(part.triangles);
-      primitive.material = first + static_cast<int>(mesh.primitives.size());
-      mesh.primitives.push_back(std::move(primitive));
-    }
+    mesh.primitives.push_back(std::move(primitive));
     tinygltf::Node node;
     node.name = mesh.name;
     node.mesh = static_cast<int>(model.meshes.size());
-    node.translation = {eye.centre.x(), eye.centre.y(), eye.centre.z()};
+    node.translation = {ball.centre.x(), ball.centre.y(), ball.centre.z()};
     model.meshes.push_back(std::move(mesh));
     (side == 0 ? nodes.eye_R : nodes.eye_L) = static_cast<int>(model.nodes.size());
     model.nodes.push_back(node);
@@ -124,12 +151,16 @@ void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeb
 }
 
 void add_teeth(tinygltf::Model& model, GltfArrays& arrays, const anatomy::Teeth& teeth,
-               FaceNodes& nodes) {
+               const Vec3& forward, FaceNodes& nodes) {
   const int first = static_cast<int>(model.materials.size());
-  model.materials.push_back(plain_material("teeth", {0.82, 0.74, 0.58, 1}, 0.35));
-  model.materials.push_back(plain_material("gum", {0.48, 0.11, 0.11, 1}, 0.45));
-  nodes.upper_teeth = add_jaw(model, arrays, teeth.upper, "upper_teeth", first);
-  nodes.lower_teeth = add_jaw(model, arrays, teeth.lower, "lower_teeth", first);
+  model.materials.push_back(plain_material("teeth", base_colour(kCrownColour), 0.35));
+  model.materials.push_back(plain_material("gum", base_colour(kGumColour), 0.45));
+  if (teeth.tongue.triangles.rows() > 0)
+    model.materials.push_back(plain_material("tongue", base_colour(kTongueColour), 0.5));
+  nodes.upper_teeth = add_jaw(model, arrays, {&teeth.upper.crowns, &teeth.upper.gum}, forward,
+                              "upper_teeth", first);
+  nodes.lower_teeth = add_jaw(model, arrays, {&teeth.lower.crowns, &teeth.lower.gum, &teeth.tongue},
+                              forward, "lower_teeth", first);
 }
 
 tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
@@ -156,10 +187,11 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
   return skin;
 }
 
-TriMesh pockets(const std::vector<Opening>& openings, const Points& points) {
+TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
+                const Eigen::Isometry3d& jaw) {
   TriMesh all;
   for (const Opening& opening : openings) {
-    const TriMesh one = pocket(opening, points);
+    const TriMesh one = pocket(opening, points, jaw);
     const Index vertices = all.points.rows(), triangles = all.triangles.rows();
     all.points.conservativeResize(vertices + one.points.rows(), 3);
     all.points.bottomRows(one.points.rows()) = one.points;
@@ -173,12 +205,11 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
                                      const std::vector<Opening>& openings, const TriMesh& mesh) {
   Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor> srgb(mesh.points.rows(), 3);
   Index row = 0;
-  for (const Opening& opening : openings) {
-    const auto edge = Index(opening.loop.size());
-    for (Index i = 0; i <= 3 * edge; ++i, ++row)
-      for (int k = 0; k < 3; ++k)
-        srgb(row, k) = kPocketColours[std::size_t(std::min(i / edge, Index(2)))][std::size_t(k)];
-  }
+  for (const Opening& opening : openings)
+    for (const Srgb& colour : opening.colours) {
+      for (int k = 0; k < 3; ++k) srgb(row, k) = colour[std::size_t(k)];
+      ++row;
+    }
   tinygltf::Primitive cavity;
   cavity.mode = TINYGLTF_MODE_TRIANGLES;
   cavity.attributes["POSITION"] = arrays.vectors(mesh.points.cast<float>(), true);
@@ -195,9 +226,12 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
 
 void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
                         const std::vector<Opening>& openings, const Points& skin_rest,
-                        const Points& at_rest, const PoseTargets& targets) {
-  for (const PointsF& pose : targets.positions) {
-    const Points now = pockets(openings, skin_rest + pose.cast<double>()).points;
+                        const Points& at_rest, const PoseTargets& targets,
+                        const std::vector<Eigen::Isometry3d>& jaws) {
+  for (std::size_t k = 0; k < targets.positions.size(); ++k) {
+    const Points skin = skin_rest + targets.positions[k].cast<double>();
+    const Eigen::Isometry3d jaw = jaws.empty() ? Eigen::Isometry3d::Identity() : jaws.at(k);
+    const Points now = pockets(openings, skin, jaw).points;
     pocket_part.targets.push_back({{"POSITION", arrays.few_vectors((now - at_rest).cast<float>(),
                                                                    targets.least_move_m, true)}});
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Inside the room: what the glTF files of a scanned face have in common, beside their skin's
-// motion.
+// Internal to the room: parts common to all glTF files of a scanned face, apart from the motion of
+// the skin.
 #include <tiny_gltf.h>
 
 #include <string>
@@ -28,28 +28,30 @@ void begin_face(tinygltf::Model& model);
 tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
                                    const simulate::Performance& performance, const io::Scan& scan);
 
-/// The pockets of all openings for a skin at `points`, one after the other.
-TriMesh pockets(const std::vector<Opening>& openings, const Points& points);
+/// The pockets of all openings for a skin at `points` and a jaw, one after the other.
+TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
+                const Eigen::Isometry3d& jaw = Eigen::Isometry3d::Identity());
 
-/// Dark pockets behind the openings: a part of the skin's mesh, as they go along with its poses.
-/// Unlit, as on the page: no light falls into a mouth.
+/// The pockets behind the openings, as a primitive of the skin's mesh, because they move with its
+/// poses. Unlit, as on the page: the light is part of their colours.
 tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
                                      const std::vector<Opening>& openings, const TriMesh& mesh);
 
 /// Morph targets of the pockets for those of the skin: `pocket_part` is the cavity_primitive() of
-/// `openings`, and `at_rest` its points.
+/// `openings`, and `at_rest` its points. `jaws`: the jaw in each target; empty: it does not move.
 void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
                         const std::vector<Opening>& openings, const Points& skin_rest,
-                        const Points& at_rest, const PoseTargets& targets);
+                        const Points& at_rest, const PoseTargets& targets,
+                        const std::vector<Eigen::Isometry3d>& jaws);
 
-/// Nodes eye_R and eye_L in the colours of the report's (web/src/replay/face/backing.ts), turned
-/// about their centres.
+/// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes.
 void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,
-              FaceNodes& nodes);
+              const TriMesh& skin, FaceNodes& nodes);
 
-/// Nodes upper_teeth and lower_teeth with crowns and gum.
+/// Nodes upper_teeth and lower_teeth with crowns and gum, the lower one with the tongue too.
+/// `forward`: the direction in which the face looks; parts farther back are darker.
 void add_teeth(tinygltf::Model& model, GltfArrays& arrays, const anatomy::Teeth& teeth,
-               FaceNodes& nodes);
+               const Vec3& forward, FaceNodes& nodes);
 
 /// Puts all nodes into one scene.
 void end_face(tinygltf::Model& model);

@@ -13,7 +13,7 @@ using Eigen::Index;
 
 namespace {
 constexpr std::size_t kVector = 12;  // bytes
-/// Of an index of a sparse accessor.
+/// The size of an index in a sparse accessor, bytes.
 std::size_t index_bytes(std::size_t vertices) {
   return vertices <= 65536 ? 2 : 4;
 }
@@ -22,7 +22,7 @@ std::size_t longer_than(const PointsF& rows, float least) {
   return static_cast<std::size_t>((rows.rowwise().norm().array() >= least).count());
 }
 
-/// What few_vectors() takes.
+/// The bytes that few_vectors() writes.
 std::size_t few_bytes(const PointsF& rows, float least) {
   const auto vertices = static_cast<std::size_t>(rows.rows());
   return std::min(kVector * vertices, (kVector + index_bytes(vertices)) * longer_than(rows, least));
@@ -141,7 +141,7 @@ int GltfArrays::rows_as_vectors(const Eigen::MatrixXf& rows) {
 }
 
 namespace {
-/// Of a normal's change: about a degree.
+/// Smaller changes of a normal are not stored: about one degree.
 constexpr float kLeastNormal = 0.02F;
 }  // namespace
 

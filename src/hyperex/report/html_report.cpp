@@ -148,7 +148,7 @@ json landmark_section(const motion::Motion& landmarks, BinaryBlock& block) {
           {"positions", positions_of(landmarks, block)}};
 }
 
-/// What people call each point that the page names: landmarks, and pairs of the excursions.
+/// The plain names of all points that the page names: landmarks, and pairs of the excursions.
 json point_words_of(const ReportInput& input) {
   json words = json::object();
   const auto add = [&](const std::string& name) { words[name] = face::point_words(name); };
@@ -201,7 +201,7 @@ json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
   }
   if (!face) return manifest;
   manifest["skin"] = skin_section(input, block);
-  const Vec3 forward = add_backing(performance, block, manifest);
+  const Vec3 forward = add_backing(input, block, manifest);
   if (input.mirror) manifest["mirror"] = mirror_section(*input.mirror, block);
   if (input.teeth) manifest["teeth"] = teeth_section(*input.teeth, forward, block);
   return manifest;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hyperex/anatomy/teeth/teeth.hpp"
+#include "hyperex/face/complexion.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/asymmetry.hpp"
 #include "hyperex/metrics/symmetry.hpp"
@@ -15,15 +16,15 @@
 
 namespace hyperex::report {
 
-/// A quantity over the skin, as a parameter of the tissue.
+/// A quantity on the skin, such as a parameter of the tissue.
 struct SkinMap {
   std::string key = {};   ///< as the scene writes it: "young_kpa"
   std::string name = {};  ///< "Young's modulus"
   std::string unit = {};  ///< "kPa"
-  /// Range over all maps of this key in the page, so that one colour bar serves all; least <=
+  /// Range over all maps of this key in the page, so that they share one colour bar; least <=
   /// greatest.
   double least = 0, greatest = 0;
-  Eigen::VectorXd values = {};  ///< a vertex of skin_rest, in `unit`
+  Eigen::VectorXd values = {};  ///< one per vertex of skin_rest, in `unit`
 };
 
 /// The same face with other tissue: mesh, rest shape and times as the scene's own.
@@ -31,10 +32,10 @@ struct ReportVariant {
   std::string name;
   std::vector<std::string> changes;          ///< what differs, "tissue.young_kpa = 1000"
   const simulate::Performance& performance;  ///< its landmarks are sampled as the scene's own
-  DisplacementModes difference;              ///< of its displacement less the scene's own
+  DisplacementModes difference;              ///< of its displacement minus that of the scene itself
   const metrics::SymmetryCurve* symmetry = nullptr;
   std::vector<SkinMap> tissue;  ///< keys as the scene's own
-  /// Where muscles drive: its activations, a row each of the scene's MuscleCourse::groups.
+  /// If muscles drive: its activations, one row for each of the scene's MuscleCourse::groups.
   Eigen::MatrixXd group_activation = {};
 };
 
@@ -45,31 +46,32 @@ struct ReportMuscle {
   Points line;        ///< n x 3, from origin to insertion, at rest
 };
 
-/// What the page shows. References must outlive the call.
+/// The contents of the page. References must outlive the call.
 struct ReportInput {
   const simulate::Performance& performance;
   const io::Scan& scan;
   /// Modes of performance.skin_displacement_m; their error and half a step of each mode (1/65534 of
   /// its largest component, or at most a micrometre) are the accuracy of the replay.
   const DisplacementModes& modes;
-  const metrics::SymmetryCurve* symmetry = nullptr;  ///< its plots are left out where null
+  const metrics::SymmetryCurve* symmetry = nullptr;  ///< null: no plots of it
   nlohmann::json summary = {};                       ///< an object; shown as tables
   std::vector<std::string> notes = {};               ///< warnings and remarks, a sentence each
   std::string title = {};
   /// Parameters that differ from place to place in any of the faces.
   std::vector<SkinMap> tissue = {};
-  /// How far the scene's own skin is expected to be from the true one (key "uncertainty"); without
-  /// values where that is not known.
+  /// Expected distance of the scene's own skin from the true one (key "uncertainty"); without
+  /// values if it is not known.
   SkinMap uncertainty = {};
   std::vector<ReportVariant> variants = {};
-  /// Where each vertex has its counterpart on the other side; no asymmetry is shown where null.
+  /// The counterpart of each vertex on the other side; null: asymmetry is not shown.
   const metrics::RestAsymmetry* mirror = nullptr;
-  std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
-  const anatomy::Teeth* teeth = nullptr;   ///< at rest, scan frame; null: none
+  std::vector<ReportMuscle> muscles = {};            ///< where performance.muscles drive
+  const anatomy::Teeth* teeth = nullptr;             ///< at rest, scan frame; null: none
+  face::SkinTone skin_tone = face::SkinTone::light;  ///< where the scan has no colours
 };
 
-/// What the page reads, its arrays in `block`: all of it, or without `face`, the parts that stay
-/// the same however the face moves (skin, mirror, openings, eyeballs, teeth). Throws as
+/// The data that the page reads; arrays are appended to `block`. If `face` is false, the parts that
+/// do not depend on the motion are left out (skin, mirror, openings, eyeballs, teeth). Throws as
 /// write_html_report.
 nlohmann::json replay_manifest(const ReportInput& input, BinaryBlock& block, bool face = true);
 

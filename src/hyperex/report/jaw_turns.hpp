@@ -4,8 +4,8 @@
 
 namespace hyperex::report {
 
-/// A rotation as that of its two quaternions which is nearer to the one before, so that players may
-/// interpolate between them.
+/// Of the two quaternions of a rotation, the one nearer to the previous quaternion, so that players
+/// can interpolate between them.
 inline Eigen::Quaterniond near_to(const Eigen::Quaterniond& before, const Eigen::Matrix3d& turn) {
   Eigen::Quaterniond out(turn);
   if (out.dot(before) < 0) out.coeffs() *= -1;

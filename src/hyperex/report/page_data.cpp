@@ -18,24 +18,7 @@ namespace {
 using nlohmann::json;
 static_assert(std::endian::native == std::endian::little, "the page reads little-endian arrays");
 
-void write_base64(std::ostream& out, const std::vector<std::uint8_t>& bytes) {
-  static constexpr char digits[] =
-      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string text;
-  text.reserve((bytes.size() + 2) / 3 * 4);
-  for (std::size_t i = 0; i < bytes.size(); i += 3) {
-    const std::size_t left = bytes.size() - i;
-    const unsigned group =
-        bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
-    text += digits[group >> 18 & 63];
-    text += digits[group >> 12 & 63];
-    text += left > 1 ? digits[group >> 6 & 63] : '=';
-    text += left > 2 ? digits[group & 63] : '=';
-  }
-  out << text;
-}
-
-/// JSON that may stand inside a script element: "<" only occurs in strings, where its escape means
+/// JSON that is safe inside a script element: "<" only occurs in strings, where its escape means
 /// the same and cannot end the element.
 std::string script_safe(const json& value) {
   std::string text;
@@ -49,6 +32,23 @@ std::string script_safe(const json& value) {
 }
 
 }  // namespace
+
+std::string base64(const std::vector<std::uint8_t>& bytes) {
+  static constexpr char digits[] =
+      "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t left = bytes.size() - i;
+    const unsigned group =
+        bytes[i] << 16 | (left > 1 ? bytes[i + 1] << 8 : 0) | (left > 2 ? bytes[i + 2] : 0);
+    text += digits[group >> 18 & 63];
+    text += digits[group >> 12 & 63];
+    text += left > 1 ? digits[group >> 6 & 63] : '=';
+    text += left > 2 ? digits[group & 63] : '=';
+  }
+  return text;
+}
 
 json palette() {
   const auto all = [](bool dark) {
@@ -81,8 +81,7 @@ void write_page(const std::filesystem::path& file, std::string_view page, json m
     out << page.substr(0, at) << "<script id=\"hyperex-manifest\" type=\"application/json\">"
         << text << "</script>\n"
         << "<script id=\"hyperex-binary\" type=\"application/octet-stream;base64\">";
-    write_base64(out, block.bytes());
-    out << "</script>\n" << page.substr(at + data_mark.size());
+    out << base64(block.bytes()) << "</script>\n" << page.substr(at + data_mark.size());
   });
 }
 

@@ -3,12 +3,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 #include <string_view>
 #include <vector>
 
 namespace hyperex::report {
 
-/// One block of little-endian numbers that a page decodes once; the manifest says what lies where.
+/// One block of little-endian numbers, decoded once by a page. The manifest states what it contains
+/// and where.
 class BinaryBlock {
  public:
   /// Appends `count` numbers and returns where they are: {"type", "offset" in bytes, "count"}.
@@ -34,6 +36,9 @@ class BinaryBlock {
  private:
   std::vector<std::uint8_t> bytes_;
 };
+
+/// In base64 (RFC 4648), with padding.
+std::string base64(const std::vector<std::uint8_t>& bytes);
 
 /// "palette" of a manifest: colours of categories on light and dark paper (render/time_plot.hpp),
 /// the places of left and right in them, and those of base and its variants.

@@ -18,8 +18,8 @@ using Eigen::Index;
 constexpr int kSweeps = 200;
 constexpr double kSettled = 1e-6;  // of a weight, between sweeps
 
-/// Minimises |target - keys^T w| over 0 <= w <= 1, from where w stands: `gram` of the keys, `along`
-/// their products with the target.
+/// Minimises |target - keys^T w| over 0 <= w <= 1, starting from the given w: `gram` of the keys,
+/// `along` their products with the target.
 void settle(const Eigen::MatrixXd& gram, const Eigen::VectorXd& along, Eigen::VectorXd& w) {
   Eigen::VectorXd slope = along - gram * w;
   for (int sweep = 0; sweep < kSweeps; ++sweep) {

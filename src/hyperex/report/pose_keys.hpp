@@ -19,16 +19,16 @@ struct PoseKeys {
   double max_error_m = 0;   ///< largest distance of any vertex in any frame from its true place
 };
 
-/// What a key leaves out for the file's sake: vertices that move less than a twentieth of the
-/// tolerance stand still in it. Counted in max_error_m.
+/// The least displacement that a key stores, a twentieth of the tolerance. To save space, vertices
+/// that move less have no displacement in that key; max_error_m includes this.
 float least_move_m(double tolerance_m);
 PointsF pose_of(const PointsF& displacement, float least_m);
 
-/// Keys are chosen one by one: the frame that the keys so far show worst becomes the next, until no
-/// vertex is farther than `tolerance_m` from its place in any frame, or `take(frame)` refuses it.
-/// The weights of a frame are the least-squares ones within 0 to 1, by coordinate descent in the
-/// coordinates of frame_coordinates(). No motion gives no keys.
-/// The same input gives the same keys, however many threads there are.
+/// Keys are chosen one by one: the next key is the frame with the greatest error so far. This ends
+/// when no vertex is farther than `tolerance_m` from its place in any frame, or when `take(frame)`
+/// returns false. The weights of a frame are the least-squares ones within 0 to 1, by coordinate
+/// descent in the coordinates of frame_coordinates(). No motion gives no keys. The same input gives
+/// the same keys, however many threads there are.
 PoseKeys pose_keys(const std::vector<PointsF>& displacements, double tolerance_m,
                    const std::function<bool(int)>& take);
 

@@ -60,7 +60,7 @@ void add_eye_targets(tinygltf::Model& model, GltfArrays& arrays, int node, const
   add_rigid_targets(model, arrays, node, names, moves);
 }
 
-/// The lower teeth turn about the jaw's axis: their node stands in its middle.
+/// The lower teeth turn about the jaw's axis, so their node is at its middle.
 void add_jaw_targets(tinygltf::Model& model, GltfArrays& arrays, int node, const Vec3& axis_m,
                      const std::vector<RigShape>& shapes) {
   std::vector<std::string> names;
@@ -76,6 +76,17 @@ void add_jaw_targets(tinygltf::Model& model, GltfArrays& arrays, int node, const
     });
   }
   add_rigid_targets(model, arrays, node, names, moves);
+}
+
+/// So that a program which plays the rig knows its points (io/gltf_shapes.hpp).
+void list_landmarks(tinygltf::Mesh& skin, const io::Landmarks& landmarks) {
+  tinygltf::Value::Object places;
+  for (const auto& [name, at] : landmarks)
+    places[name] = tinygltf::Value(tinygltf::Value::Array{
+        tinygltf::Value(at.x()), tinygltf::Value(at.y()), tinygltf::Value(at.z())});
+  tinygltf::Value::Object extras = skin.extras.Get<tinygltf::Value::Object>();
+  extras["landmarks_m"] = tinygltf::Value(places);
+  skin.extras = tinygltf::Value(extras);
 }
 
 PoseTargets targets_of(const TriMesh& rest, const std::vector<RigShape>& shapes) {
@@ -109,22 +120,26 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   tinygltf::Mesh skin;
   skin.name = "skin";
   skin.primitives.push_back(skin_primitive(model, arrays, view, performance, scan));
-  const FaceBacking backing = face_backing(performance);
+  const FaceBacking backing = face_backing(performance, teeth);
   const TriMesh cavity = pockets(backing.openings, rest.points);
   if (!backing.openings.empty())
     skin.primitives.push_back(cavity_primitive(model, arrays, backing.openings, cavity));
   const PoseTargets targets = targets_of(rest, shapes);
   add_morph_targets(skin, arrays, targets, view.skin_vertex);
+  list_landmarks(skin, landmarks_at_rest(performance));
+  std::vector<Eigen::Isometry3d> jaws;
+  if (teeth)
+    for (const RigShape& shape : shapes) jaws.push_back(shape.jaw_now_from_rest);
   if (!backing.openings.empty())
     add_pocket_targets(skin.primitives[1], arrays, backing.openings, rest.points, cavity.points,
-                       targets);
+                       targets, jaws);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
   if (teeth) {
     anatomy::Teeth about = *teeth;
-    for (TriMesh* part : {&about.lower.crowns, &about.lower.gum})
+    for (TriMesh* part : {&about.lower.crowns, &about.lower.gum, &about.tongue})
       part->points.rowwise() -= jaw_axis_m.transpose();
-    add_teeth(model, arrays, about, nodes);
+    add_teeth(model, arrays, about, backing.forward, nodes);
     if (nodes.lower_teeth >= 0)
       model.nodes[std::size_t(nodes.lower_teeth)].translation = {jaw_axis_m.x(), jaw_axis_m.y(),
                                                                  jaw_axis_m.z()};

@@ -25,12 +25,12 @@ struct RigShape {
   std::optional<Gaze> right_eye = {}, left_eye = {};
 };
 
-/// Writes a face that stands still as binary glTF 2.0, metres, with the shapes as morph targets of
-/// their names: of the skin (all of them), of the pockets behind its openings, of the lower teeth
-/// (those in which the jaw moves) and of the eyeballs (those in which they turn). The nodes
-/// lower_teeth, eye_R and eye_L may be turned instead of morphed: their origins are the middle of
-/// the jaw's axis (`jaw_axis_m`) and the middles of the eyes. Displacements below 0.05 mm are left
-/// out. `performance`: its skin at rest and landmarks are used. Returns the size in bytes. Throws
+/// Writes a face at rest as binary glTF 2.0, metres, with the shapes as morph targets of their
+/// names: of the skin (all of them), of the pockets behind its openings, of the lower teeth (those
+/// in which the jaw moves) and of the eyeballs (those in which they turn). The nodes lower_teeth,
+/// eye_R and eye_L may be turned instead of morphed: their origins are the middle of the jaw's axis
+/// (`jaw_axis_m`) and the middles of the eyes. Displacements below 0.05 mm are left out.
+/// `performance`: its skin at rest and landmarks are used. Returns the size in bytes. Throws
 /// InputError where the file cannot be written, std::invalid_argument for shapes of another skin.
 double write_rig_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                      const io::Scan& scan, const anatomy::Teeth* teeth, const Vec3& jaw_axis_m,

@@ -16,10 +16,10 @@ namespace hyperex::report {
 ///                      subject's left, +y up, +z forward) with poses of its motion as morph
 ///                      targets (pose_keys.hpp, to `tolerance_m`, or as many as fit into 20 MB),
 ///                      their weights animated
-/// Times are counted from the recording's first frame, and keys are at the valid ones. Where frames
-/// are not valid the head's scale is 0: nothing is shown then. Valid frames whose time does not
-/// rise are left out. Throws InputError where the file cannot be written, std::invalid_argument
-/// where the tracking has no neutral face or it is another model's.
+/// Times are counted from the recording's first frame. There is one key per valid frame. During
+/// invalid frames the head's scale is 0, so that nothing is visible. Valid frames whose time does
+/// not increase are left out. Throws InputError where the file cannot be written,
+/// std::invalid_argument where the tracking has no neutral face or it is another model's.
 void write_tracked_glb(const std::filesystem::path& file, const expression::FaceModel& model,
                        const tracking::Tracking& tracking, const capture::Intrinsics& camera,
                        double tolerance_m = 3e-4);

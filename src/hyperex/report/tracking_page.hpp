@@ -9,7 +9,7 @@
 
 namespace hyperex::report {
 
-/// What the page shows. References must outlive the call.
+/// The contents of the page. References must outlive the call.
 struct TrackingPageInput {
   const expression::FaceModel& model;
   const tracking::Tracking& tracking;  ///< of this model, with its neutral face

@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/rig/shape_motion.hpp"
@@ -29,7 +30,7 @@ constexpr double kClosedAt = 0.7;
 constexpr double kLookUp_deg = 20, kLookDown_deg = 25, kLookAside_deg = 30;
 /// Shares of eyeWide and eyeBlink in which the lids follow.
 constexpr double kLidsUp = 0.5, kLidsDown = 0.55;
-/// A jaw that turns by less stands still.
+/// A jaw that turns by less is taken as not moving.
 constexpr double kJaw_rad = 0.005;
 /// Sections of a scene whose keys may change a rig.
 constexpr const char* kSections[] = {"tissue", "muscles", "contact", "support", "mesh", "teeth"};

@@ -22,8 +22,8 @@ struct FaceRig {
   simulate::Performance performance;            ///< the run that the shapes come from
   Vec3 jaw_axis_m;                              ///< the middle between the condyles
   std::vector<report::RigShape> shapes;         ///< in the order of expression::arkit_shapes()
-  /// "Right", "Left": sides on which the scan's eye is closed, so that shapes of lids and gaze move
-  /// nothing there.
+  /// "Right", "Left": the sides on which the eye is closed in the scan. Shapes of lids and gaze
+  /// move nothing there.
   std::vector<std::string> closed_eyes;
 };
 
@@ -36,10 +36,9 @@ struct FaceRig {
 ///                 mouth
 ///   eyeLook...    the eyes turn; the lids take 0.5 of eyeWide with a gaze up and 0.55 of eyeBlink
 ///                 with one down
-///   tongueOut     nothing: there is no tongue
-/// `changes`: of keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
-/// (docs/scene.md). `note`: called with what is assumed and doubtful. Throws InputError,
-/// NumericalError.
+///   tongueOut     nothing: the tongue stays in the mouth
+/// `changes`: keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
+/// (docs/scene.md). `note`: called with each note and warning. Throws InputError, NumericalError.
 FaceRig make_rig(session::Face face, const session::Changes& changes = {},
                  const std::function<void(const Note&)>& note = {});
 

@@ -12,7 +12,8 @@ namespace {
 
 using expression::canonical_model;
 
-/// Of real faces: a shape's own, or those of both sides. Zero where there is none.
+/// The displacements by the shape of this name in the shapes of real faces, or by those of both
+/// sides. Zero if there is no such shape.
 Points by_real_faces(const std::string& arkit) {
   const expression::ShapeModel& model = expression::shape_model();
   const Points& rest = canonical_model().mesh.points;

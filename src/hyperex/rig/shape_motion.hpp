@@ -8,19 +8,18 @@
 
 namespace hyperex::rig {
 
-/// An expression that a face takes: weights of ARKit's blend shapes, and when it has them.
+/// An expression: weights of ARKit's blend shapes, and a time at which the face shows it.
 struct Pose {
   std::vector<std::pair<std::string, double>> weights;
   double time_s = 0;
 };
 
-/// How the landmarks of the canonical face move through the poses, in its frame and size: a pose a
-/// second, reached after 0.4 s and held for 0.4 s, with rest between. Sets time_s of the poses to
-/// the end of their holds.
-/// Each shape moves the landmarks as that of its name does in the shapes of real faces
-/// (expression/shape_model.hpp; browInnerUp and cheekPuff are those of both sides). Lids move as by
-/// the canonical face's own units (expression/face_model.hpp), which close and widen its eyes
-/// exactly. Gaze and tongue move nothing.
+/// The motion of the canonical face's landmarks through the poses, in its frame and size: one pose
+/// per second, reached after 0.4 s and held for 0.4 s, with rest between. Sets time_s of each pose
+/// to the end of its hold. Each shape moves the landmarks as that of its name does in the shapes of
+/// real faces (expression/shape_model.hpp; browInnerUp and cheekPuff are those of both sides). Lids
+/// move as by the canonical face's own units (expression/face_model.hpp), which close and widen its
+/// eyes exactly. Gaze and tongue move nothing.
 motion::Motion motion_through(std::vector<Pose>& poses);
 
 }  // namespace hyperex::rig

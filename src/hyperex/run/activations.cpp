@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/run/activations.hpp"
 
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "hyperex/io/csv.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 
@@ -12,20 +17,38 @@ Eigen::Index most_active_sample(const simulate::MuscleCourse& muscles) {
   return at;
 }
 
+namespace {
+
+/// The muscles' numbers, of each pair the right one first, as in every other table.
+std::vector<std::size_t> right_first(const std::vector<std::string>& names) {
+  std::vector<std::size_t> order(names.size());
+  std::iota(order.begin(), order.end(), std::size_t(0));
+  for (std::size_t m = 0; m + 1 < names.size(); ++m) {
+    const std::string& name = names[m];
+    if (name.ends_with("_L") && names[m + 1] == name.substr(0, name.size() - 1) + "R")
+      std::swap(order[m], order[m + 1]);
+  }
+  return order;
+}
+
+}  // namespace
+
 void write_activations_csv(const std::filesystem::path& file,
                            const simulate::MuscleCourse& muscles) {
   std::vector<std::string> columns = {"time_s", "jaw_opening_deg"};
-  for (const std::string& name : muscles.names) {
-    columns.push_back(name);
-    columns.push_back(name + "_sigma");
+  const std::vector<std::size_t> order = right_first(muscles.names);
+  for (const std::size_t m : order) {
+    columns.push_back(muscles.names[m]);
+    columns.push_back(muscles.names[m] + "_sigma");
   }
   io::write_csv(file, columns, static_cast<long>(muscles.time_s.size()),
                 [&](long row, std::vector<double>& values) {
                   values[0] = muscles.time_s[std::size_t(row)];
                   values[1] = muscles.jaw_opening_deg[row];
-                  for (std::size_t m = 0; m < muscles.names.size(); ++m) {
-                    values[2 + 2 * m] = muscles.activation(Eigen::Index(m), row);
-                    values[3 + 2 * m] = muscles.sigma(Eigen::Index(m), row);
+                  for (std::size_t i = 0; i < order.size(); ++i) {
+                    const auto m = Eigen::Index(order[i]);
+                    values[2 + 2 * i] = muscles.activation(m, row);
+                    values[3 + 2 * i] = muscles.sigma(m, row);
                   }
                 });
 }

@@ -10,14 +10,15 @@ namespace hyperex::run {
 /// The sample in which all muscles together are most active.
 Eigen::Index most_active_sample(const simulate::MuscleCourse& muscles);
 
-/// activations.csv: a row a sample of the motion; time_s, jaw_opening_deg, then of each muscle its
-/// activation (1 moves the skin by 10 mm where most) and its standard deviation. `muscles` has
-/// names.
+/// Writes activations.csv with one row per sample of the motion: time_s, jaw_opening_deg, then for
+/// each muscle its activation and its standard deviation. At activation 1 a muscle moves some part
+/// of the skin by 10 mm. `muscles` must have names.
 void write_activations_csv(const std::filesystem::path& file,
                            const simulate::MuscleCourse& muscles);
 
-/// Where the summed activation is greatest: each group's activation and standard deviation by side,
-/// and what may be read from it. `driven_points`: how many there were.
+/// For summary.json, at the sample of the greatest summed activation: activation and standard
+/// deviation of each group on each side, and a sentence on how to read them. `driven_points`: their
+/// number.
 nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
                                         std::size_t driven_points);
 

@@ -8,9 +8,10 @@
 
 namespace hyperex::run {
 
-/// The asymmetry map on the moved skin, from the front and from both sides, with a colour bar in
-/// mm up to the 99th percentile over the face; plain where a vertex has no counterpart. `moved`:
-/// the displaced skin, `map_mm` a value a vertex (asymmetry_mm), `landmarks` those at rest.
+/// The asymmetry map on the moved skin, from the front and from both sides, with a colour bar in mm
+/// up to the 99th percentile over the face; a vertex without a counterpart is not coloured.
+/// `moved`: the displaced skin; `map_mm`: one value per vertex (asymmetry_mm); `landmarks`: those
+/// at rest.
 render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,
                              const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
                              const std::string& title, const std::string& note);

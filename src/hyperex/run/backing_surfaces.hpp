@@ -11,21 +11,22 @@
 
 namespace hyperex::run {
 
-/// report::face_backing() with the directions of pockets in the face's frame.
+/// report::face_backing() with pockets in the face's frame.
 report::FaceBacking backing_in_frame(const TriMesh& skin_rest, const io::Landmarks& landmarks,
-                                     const face::FaceFrame& frame);
+                                     const anatomy::Teeth* teeth, const face::FaceFrame& frame);
 
-/// What stands behind the holes of a skin in one shape, in the face's frame: eyeballs, pockets
-/// behind mouth and nostrils, so that nobody looks through the head, and teeth with their gums.
+/// The surfaces behind the holes of a skin in one pose, in the face's frame: eyeballs, the lining
+/// of the mouth, pockets behind the nostrils (so that the head does not look hollow), teeth with
+/// gums, and the tongue.
 class BackingSurfaces {
  public:
-  /// `backing`: as backing_in_frame() has it. `skin`: the vertices in that shape in the face's
-  /// frame; pockets hang on them. `teeth`: at rest, scan frame; null: none. `jaw`: of the lower
-  /// ones, now_from_rest.
+  /// `backing`: from backing_in_frame(). `skin`: the vertices in that pose in the face's frame, to
+  /// which the pockets are attached. `teeth`: at rest, scan frame; null: none. `jaw`: motion of the
+  /// lower teeth, now_from_rest.
   BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
                   const Points& skin, const anatomy::Teeth* teeth, const Eigen::Isometry3d& jaw);
 
-  /// The skin's surface with all that stands behind it; refers to this.
+  /// The skin and all surfaces behind it. They refer to this object.
   std::vector<render::Surface> with(const render::Surface& skin) const;
 
  private:
@@ -33,8 +34,11 @@ class BackingSurfaces {
     TriMesh mesh;
     render::Colour colour;
     bool smooth = false;
-    render::VertexColours colours = {};  ///< in the place of `colour`
+    render::VertexColours colours = {};  ///< if not empty, used instead of `colour`
   };
+  void add_teeth(const anatomy::Teeth& teeth, const face::FaceFrame& frame,
+                 const Eigen::Isometry3d& jaw, double light);
+
   std::vector<Part> parts_;
 };
 

@@ -19,30 +19,27 @@ double rounded_mm(double mm) {
   return std::round(10 * mm) / 10;
 }
 
-/// Whether the corners' difference counts, and what the larger floor comes from.
+/// What most of the floor comes from.
+std::string largest_part(const Json& corners) {
+  std::pair<double, const char*> most{0, "mesh"};
+  for (const auto& [key, words] : {std::pair{"mesh_floor_mm", "mesh"},
+                                   {"jitter_floor_mm", "jitter"},
+                                   {"pose_floor_mm", "the head's pose"}})
+    most = std::max(most, {corner_number(corners, key, 0), words},
+                    [](const auto& a, const auto& b) { return a.first < b.first; });
+  return most.second;
+}
+
+/// Whether the corners' difference counts, and what most of the floor comes from.
 std::string floor_clause(const Json& corners, double apart_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   if (floor_mm <= 0) return "";
-  const bool of_jitter =
-      corner_number(corners, "jitter_floor_mm", 0) > corner_number(corners, "mesh_floor_mm", 0);
   return fmt::format(": {} the floor of {} mm ({})",
                      corners.value("undecided", false) ? "undecided, below" : "more than",
                      floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1
                          ? fmt::format("{:.2f}", floor_mm)
                          : fmt::format("{:.1f}", floor_mm),
-                     of_jitter ? "jitter" : "mesh");
-}
-
-/// An error of the head's pose moves both corners. A turn, or a shift to one side, changes their
-/// difference, which the floor does not include. So the uncertainty of the pose is printed where it
-/// exceeds the floor.
-std::string head_clause(const Json& summary, const Json& corners) {
-  const double shift_mm = corner_number(summary, "head_shift_uncertainty_mm", 0);
-  if (shift_mm <= corner_number(corners, "floor_mm", 0) || shift_mm < 0.05) return "";
-  return fmt::format(
-      "; not in it: the head's pose, uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), of "
-      "which a turn or a shift to one side would part them too",
-      shift_mm, corner_number(summary, "head_turn_uncertainty_deg", 0));
+                     largest_part(corners));
 }
 
 /// A corner of the mouth in base and in a variant; what is not known is not a number.
@@ -115,8 +112,7 @@ std::string corners_line(const Json& summary) {
   const std::string line = fmt::format(
       "corners of the mouth: right {:.1f} mm, left {:.1f} mm, {:.1f} mm apart", rounded_mm(right),
       rounded_mm(left), std::abs(rounded_mm(left) - rounded_mm(right)));
-  return line + floor_clause(corners, std::abs(left - right)) + head_clause(summary, corners) +
-         "\n";
+  return line + floor_clause(corners, std::abs(left - right)) + "\n";
 }
 
 std::string variant_lines(const Json& summary) {

@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 namespace {
 using nlohmann::json;
 
-/// What a run writes of the scene and of each variant.
+/// The files that a run writes for the scene and for each variant.
 const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "contact_sheet.png",
                                         "excursions.csv",  "motion.csv",    "muscles.png",
                                         "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};

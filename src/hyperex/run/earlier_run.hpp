@@ -9,10 +9,10 @@
 
 namespace hyperex::run {
 
-/// The files that a run wrote into `folder`, relative to it and with '/' between: "files" in its
-/// summary.json, where that says "program": "hyperex". Of a run from before there was such a list,
-/// those that stand there under the names of outputs. None where no run is known to have written
-/// there.
+/// The files that a run wrote into `folder`, relative to it, with '/' as separator. They are
+/// "files" in its summary.json, if that contains "program": "hyperex". Earlier versions wrote no
+/// such list; for their folders, the existing files with names of outputs are returned. Empty if no
+/// run is known to have written there.
 std::set<std::string> files_of_earlier_run(const std::filesystem::path& folder);
 
 /// Every file and folder that a scene and its variants name, and the scene file.

@@ -5,8 +5,8 @@
 
 namespace hyperex::run {
 
-/// What a picture of the face must hold, in the face frame: the landmarks and the skin about them,
-/// ears with it; not the shoulders and the back of the head, where a scan has them.
+/// The box that a picture of the face must show, in the face frame: the landmarks and the skin
+/// around them including the ears, but not the shoulders and the back of the head.
 struct FaceBox {
   Vec3 low, high;
   bool holds(const Vec3& local) const {
@@ -26,7 +26,7 @@ inline FaceBox face_box(const io::Landmarks& landmarks, const face::FaceFrame& f
   return box;
 }
 
-/// The rows of `local` (face frame) that the box holds.
+/// The rows of `local` (face frame) that lie in the box.
 inline Points points_within(const FaceBox& box, const Points& local) {
   Points kept(local.rows(), 3);
   Eigen::Index count = 0;

@@ -10,17 +10,17 @@
 
 namespace hyperex::run {
 
-/// What ParaView shows of each tetrahedron of a performance. Of small strain:
+/// Values for each tetrahedron of a performance, for display in ParaView. At small strain:
 ///   "strain (1)"              xx, yy, zz, xy, yz, xz of the tensor; only `with_strain`
 ///   "von Mises stress (kPa)"
-/// Of finite strain, all of the elastic part (metrics::FiniteTissue):
+/// At finite strain, all for the elastic part (metrics::FiniteTissue):
 ///   "Green-Lagrange strain (1)", "Cauchy stress (kPa)"  the tensors; only `with_strain`
 ///   "principal stretches (1)" rising; only `with_strain`
 ///   "volume ratio J (1)"
 ///   "von Mises stress (kPa)"  of Cauchy's
-/// Of both:
-///   "inverted"                1 where the element is turned inside out, else 0: strain and stress
-///                             mean nothing there
+/// In both cases:
+///   "inverted"                1 if the element is inverted, else 0; strain and stress of an
+///                             inverted element are meaningless
 class FrameCells {
  public:
   /// Refers to `performance`.
@@ -36,13 +36,13 @@ class FrameCells {
   std::unique_ptr<const metrics::FiniteTissue> finite_;  // null: small strain
 };
 
-/// Writes frames.pvd and frames/frame_NNNN.vtu: the tissue in every `every`-th frame (> 0), at
-/// rest, its displacement an array ("Warp By Vector" moves it), with `more` arrays of its
-/// tetrahedra in each. Nothing where no tissue was simulated.
+/// Writes frames.pvd and frames/frame_NNNN.vtu for every `every`-th frame (> 0). Each file contains
+/// the tissue at rest and its displacement as an array, which "Warp By Vector" applies, and `more`
+/// arrays of the tetrahedra. Writes nothing if no tissue was simulated.
 void write_frames(const simulate::Performance& performance, const std::filesystem::path& directory,
                   int every, bool with_strain, const std::vector<io::VtuArray>& more = {});
-/// As the scene's output.vtu_every and vtu_strain ask for, with the parameters of its tissue that
-/// differ from place to place.
+/// The same with the scene's output.vtu_every and output.vtu_strain, and with the parameters of the
+/// tissue that vary in space.
 void write_frames(const Results& results, const std::filesystem::path& directory);
 
 }  // namespace hyperex::run

@@ -30,13 +30,13 @@ render::Colour colour_of(const std::string& branch) {
   return render::face_colour(std::size_t(at - kBranches.begin()));
 }
 
-/// Of a muscle that the recording does not tell from one at rest.
+/// For a muscle whose activation the recording does not distinguish from 0.
 render::Colour pale(const render::Colour& colour) {
   const auto towards_white = [](double part) { return part + 0.7 * (1 - part); };
   return {towards_white(colour.r), towards_white(colour.g), towards_white(colour.b)};
 }
 
-/// Of the muscles of one sample.
+/// The activations of all muscles in one sample.
 class AtPeak {
  public:
   explicit AtPeak(const simulate::MuscleCourse& course)

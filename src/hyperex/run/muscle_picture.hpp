@@ -8,10 +8,11 @@
 
 namespace hyperex::run {
 
-/// Where the muscles lie on this face, for the eye of an anatomist: their lines from origin (disc,
-/// numbered; that of a ring in its middle) to insertion over the skin at rest, from in front and
-/// from both sides, coloured by branch of the facial nerve and as broad as they are active where
-/// all together are most so; beside it their names with that activation on either side.
+/// A picture of the muscles on this face, for checking by an anatomist. It shows their lines over
+/// the skin at rest, from the front and from both sides. Each line begins at a numbered disc at the
+/// origin (for a ring, in its middle). Its colour is that of the branch of the facial nerve, and
+/// its width increases with the activation at the sample in which the sum of all activations is
+/// greatest. A list beside the picture gives the names and these activations on both sides.
 render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                            const simulate::MuscleCourse& course,
                            const muscles::MuscleTable& table = muscles::muscle_template());

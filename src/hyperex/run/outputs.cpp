@@ -22,6 +22,7 @@
 #include "hyperex/run/face_box.hpp"
 #include "hyperex/run/frames.hpp"
 #include "hyperex/run/muscle_picture.hpp"
+#include "hyperex/run/skin_colours.hpp"
 #include "hyperex/session/thinned_scan.hpp"
 
 namespace hyperex::run {
@@ -93,8 +94,8 @@ struct Still {
   const Eigen::Isometry3d* jaw;  ///< now_from_rest
 };
 
-/// The shapes wanted, each with the time that it shows: what is wanted after the end of the run is
-/// the shape at its end, and stands there once.
+/// The requested shapes with their times. Times after the end of the run are replaced by its end,
+/// without duplicates.
 std::vector<Still> stills_of(const Results& r) {
   std::vector<Still> stills;
   const Performance& p = r.simulation.performance;
@@ -180,7 +181,9 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   // The face as large in either view.
   cameras[0].height_m = cameras[1].height_m = std::max(cameras[0].height_m, cameras[1].height_m);
 
-  const report::FaceBacking backing = backing_in_frame(p.skin_rest, r.inputs.landmarks, frame);
+  const report::FaceBacking backing =
+      backing_in_frame(p.skin_rest, r.inputs.landmarks, r.teeth, frame);
+  const render::VertexColours skin = skin_colours(p, r.inputs.scan, r.scene.output.skin_tone);
 
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
@@ -196,9 +199,9 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
     const BackingSurfaces behind(backing, frame, mesh.points, r.teeth,
                                  still ? *still->jaw : Eigen::Isometry3d::Identity());
     if (!still)
-      return {
-          render::render(behind.with({.mesh = mesh}), camera, options, markers(p, frame), lines),
-          "rest", render::side_marks(camera)};
+      return {render::render(behind.with({.mesh = mesh, .colours = skin}), camera, options,
+                             markers(p, frame), lines),
+              "rest", render::side_marks(camera)};
     const render::Surface surface{
         .mesh = mesh, .scalar = 1e3F * still->displacement->rowwise().norm(), .range = {0, top}};
     return {render::render(behind.with(surface), camera, options),

@@ -25,18 +25,18 @@ struct Results {
   const simulate::SimulationResult& simulation;
   metrics::SymmetryMeasures symmetry;
   std::vector<Note> notes;
-  report::DisplacementModes modes;              ///< of the skin; empty where no page is wanted
-  const tissue::TissueField* tissue = nullptr;  ///< where the tissue differs from place to place
+  report::DisplacementModes modes;              ///< of the skin; empty if no page is written
+  const tissue::TissueField* tissue = nullptr;  ///< null: the tissue is uniform
   const anatomy::Teeth* teeth = nullptr;        ///< null: none
-  const metrics::SkinUncertainty* uncertainty = nullptr;  ///< null: not known, as of a variant
+  const metrics::SkinUncertainty* uncertainty = nullptr;  ///< null: not known, as for variants
 };
 
-/// Of base. What it refers to belongs to the session, which must outlive it and stay as it is.
+/// The results of base. They refer to the session, which must outlive them and not change.
 Results results_of(const session::FaceSession& session);
 
-/// Writes all files but summary.json and report.html into `directory`, and tells of
-/// performance.glb; nothing where that is not wanted. Of a variant of `base`, muscles.png is
-/// written only where its muscles pull differently: the picture would be that of the base.
+/// Writes all files except summary.json and report.html into `directory`. Returns the report on
+/// performance.glb, or nothing if that file is not written. For a variant of `base`, muscles.png is
+/// written only if its muscles pull differently, because it would otherwise be the picture of base.
 std::optional<report::GlbReport> write_outputs(const Results& results,
                                                const std::filesystem::path& directory,
                                                const Results* base = nullptr);
@@ -44,26 +44,26 @@ std::optional<report::GlbReport> write_outputs(const Results& results,
 /// "glb" of summary.json: keys, largest_error_mm, size_mb.
 nlohmann::ordered_json glb_json(const report::GlbReport& glb);
 
-/// A warning where output.glb_max_mb left less than output.glb_tolerance_mm asks for
-/// (`output.glb_coarse`); else none.
+/// The warning `output.glb_coarse`, if output.glb_max_mb prevented the accuracy
+/// output.glb_tolerance_mm; otherwise nothing.
 std::vector<Note> glb_notes(const scene::OutputOptions& output, const report::GlbReport& glb);
 
-/// Where the simulation ends, from the start of the motion.
+/// The end of the simulation, measured from the start of the motion.
 double run_end_s(const scene::Scene& scene, const session::Inputs& inputs);
 
-/// Of the rising times of the wanted pictures those that a run of `end_s` shows: what is wanted
-/// later shows the end, which stands there once.
+/// The requested picture times (rising), clamped to `end_s` and without duplicates.
 std::vector<double> shown_times_s(const std::vector<double>& wanted_s, double end_s);
 
-/// At most five of `count` frames, rising: spread over all, first and last among them, the one that
-/// comes nearest to the peak moved onto it.
+/// At most five of `count` frames, rising: evenly spaced including the first and the last, with the
+/// one nearest to the peak replaced by the peak.
 std::vector<std::size_t> spread_frames(std::size_t count, std::size_t peak);
 
-/// Rest and the still shapes from the front and three-quarter, coloured by displacement.
+/// The face at rest and at the picture times, from the front and in three-quarter view, coloured by
+/// displacement.
 void write_contact_sheet(const Results& results, const std::filesystem::path& file);
 
-/// Each parameter of the tissue that differs from place to place, over the skin at rest, seen from
-/// the right, from in front and from the left. Nothing where none does.
+/// Each parameter of the tissue that varies in space, on the skin at rest, seen from the right, the
+/// front and the left. Writes nothing if the tissue is uniform.
 void write_tissue_map(const Results& results, const std::filesystem::path& file);
 
 }  // namespace hyperex::run

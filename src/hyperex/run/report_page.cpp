@@ -30,7 +30,7 @@ std::string text_of(const json& value) {
   return text;
 }
 
-/// Of a face, in the units of scene files.
+/// The values of a parameter at the vertices of a face, in the unit of scene files.
 Eigen::VectorXd values_of(const scene::Scene& scene, const tissue::TissueField* field,
                           int parameter, Eigen::Index vertices) {
   const double si = tissue::parameter_info(parameter).si;
@@ -129,7 +129,8 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
              .variants = {},
              .mirror = &*r.symmetry.map,
              .muscles = muscles_of(r),
-             .teeth = r.teeth} {
+             .teeth = r.teeth,
+             .skin_tone = r.scene.output.skin_tone} {
   const simulate::Performance& p = r.simulation.performance;
   auto tissue = tissue_maps(r, variants);
   input_.tissue = std::move(tissue.front());

@@ -12,7 +12,7 @@
 namespace hyperex::run {
 using session::VariantRun;
 
-/// What a page of a run and its variants shows. What is given must outlive it.
+/// The contents of the page of a run and its variants. The referenced objects must outlive it.
 class ReplayPage {
  public:
   ReplayPage(const Results& results, const std::vector<VariantRun>& variants,
@@ -27,8 +27,8 @@ class ReplayPage {
 void write_report(const Results& results, const std::vector<VariantRun>& variants,
                   const nlohmann::ordered_json& summary, const std::filesystem::path& directory);
 
-/// A variant's changes in words, one a key: "tissue.young_kpa = 1000",
-/// "tissue.region: name = cheek_R, young_factor = 10".
+/// The changes of a variant in words, one per key: "tissue.young_kpa = 1000", "tissue.region: name
+/// = cheek_R, young_factor = 10".
 std::vector<std::string> change_texts(const nlohmann::json& changes);
 
 }  // namespace hyperex::run

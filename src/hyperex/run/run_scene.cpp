@@ -123,13 +123,14 @@ Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory
   OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
   try {
     Stopwatch total;
-    session::FaceSession session(scene, {.note = session::log_note});
+    // Meshing alone takes minutes where elements are small, so the cost is stated before it.
+    const auto state_cost = [&](const session::Inputs& inputs) {
+      if (const auto cost = session::checked_cost(scene, inputs, session::Extent::full))
+        spdlog::info("{}", session::sentence_of(*cost));
+    };
+    session::FaceSession session(scene, {.note = session::log_note, .inputs = state_cost});
     const tissue::TissueMesh& mesh = session.mesh();
-    if (const auto cost =
-            session::expected_cost(scene, session.inputs(), session::Extent::full, &mesh.volume)) {
-      session::check_disk(scene, *cost, session.inputs().notes);
-      spdlog::info("{}", session::sentence_of(*cost));
-    }
+    session::checked_cost(scene, session.inputs(), session::Extent::full, &mesh.volume);
     spdlog::info("{} nodes, {} tetrahedra under {} vertices of skin", mesh.volume.nodes.rows(),
                  mesh.volume.tets.rows(), mesh.skin.points.rows());
     Json summary = write_into(session, total, out.path(), cancelled);

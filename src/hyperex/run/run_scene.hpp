@@ -8,10 +8,10 @@
 
 namespace hyperex::run {
 
-/// A session of the scene, run, and all its outputs in `directory`, which appears complete or not
-/// at all. What was found is logged. Returns the summary (summary.json). Throws InputError,
-/// NumericalError; where `cancelled` (may be empty; asked often) returns true simulate::Cancelled,
-/// and then nothing is left.
+/// Runs a scene and writes all outputs into `directory`, which appears completely or not at all.
+/// Notes are written to the log. Returns the summary (summary.json). Throws InputError and
+/// NumericalError. `cancelled` (may be empty) is called often; if it returns true,
+/// simulate::Cancelled is thrown and no files remain.
 nlohmann::ordered_json run_scene(const scene::Scene& scene, const std::filesystem::path& directory,
                                  const std::function<bool()>& cancelled = {});
 

@@ -37,7 +37,7 @@ Json quality_json(const tissue::TissueMesh& mesh, const session::SkinOff& off) {
           {"skin_to_scan_max_mm", mesh.max_distance_mm}};
 }
 
-/// What the solver did.
+/// The solver's report.
 void add_solver(const Results& r, Json& s) {
   const auto& report = r.simulation.report;
   s["element"] = fem::to_string(r.scene.model.element);
@@ -76,7 +76,7 @@ void add_motion(const Results& r, Json& s) {
   s["lip_overlap_mm"] = report.lip_overlap_mm;
 }
 
-/// What came into contact, with and without contact's correction.
+/// Depths of penetration with and without the correction by contact.
 void add_contact(const Results& r, Json& s) {
   const auto& c = r.scene.contact;
   if (!c.any()) return;

@@ -7,7 +7,7 @@
 
 namespace hyperex::run {
 
-/// What summary.json says of base: counts, figures at the peak, symmetry, muscles, tissue.
+/// The contents of summary.json for base: counts, figures at the peak, symmetry, muscles, tissue.
 /// `results`: results_of(session).
 nlohmann::ordered_json summary_of(const session::FaceSession& session, const Results& results);
 

@@ -11,12 +11,12 @@
 namespace hyperex::run {
 using session::VariantRun;
 
-/// Rows of base and its variants as "table" of "variants" in summary.json has them, without what is
-/// known only of written files: millimetres of the corners, what differs from base.
+/// The rows of base and its variants in "table" of "variants" in summary.json: displacements of the
+/// corners (mm) and differences from base. Figures that depend on written files are not included.
 nlohmann::ordered_json variant_table(const Results& base, const std::vector<VariantRun>& runs);
 
-/// Writes variants.csv, the pictures of variants_picture.hpp and a folder a variant under
-/// variants/, and returns what summary.json says of them.
+/// Writes variants.csv, the pictures of variants_picture.hpp and one folder per variant in
+/// variants/. Returns the entry of summary.json on the variants.
 nlohmann::ordered_json write_variants(const Results& base, const std::vector<VariantRun>& runs,
                                       const tissue::TissueMesh& mesh,
                                       const std::filesystem::path& directory);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "hyperex/core/run_together.hpp"
@@ -66,20 +65,7 @@ ColourTop colour_top(const std::vector<metrics::VariantComparison>& compared) {
   return top;
 }
 
-/// Obliquely from the right, from the front and from the left: what a variant changes may lie on
-/// either side. They hold the whole face, and show it as large.
-std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect) {
-  const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
-  std::array cameras{render::framing(framed, right, aspect),
-                     render::framing(framed, render::front_view(), aspect),
-                     render::framing(framed, left, aspect)};
-  double height_m = 0;
-  for (const render::Camera& camera : cameras) height_m = std::max(height_m, camera.height_m);
-  for (render::Camera& camera : cameras) camera.height_m = height_m;
-  return cameras;
-}
-
-/// What the box holds of the skin at rest, in all the faces that are drawn.
+/// The vertices that lie in the box at rest, in all the faces that are drawn.
 Points shown_points(const FaceBox& box, const Points& rest, const std::vector<TriMesh>& faces) {
   std::vector<Vec3> kept;
   for (Eigen::Index v = 0; v < rest.rows(); ++v) {
@@ -92,6 +78,17 @@ Points shown_points(const FaceBox& box, const Points& rest, const std::vector<Tr
 }
 
 }  // namespace
+
+std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect) {
+  const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
+  std::array cameras{render::framing(framed, right, aspect),
+                     render::framing(framed, render::front_view(), aspect),
+                     render::framing(framed, left, aspect)};
+  double height_m = 0;
+  for (const render::Camera& camera : cameras) height_m = std::max(height_m, camera.height_m);
+  for (render::Camera& camera : cameras) camera.height_m = height_m;
+  return cameras;
+}
 
 void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
@@ -116,7 +113,8 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
       p.frame_time_s[shown]);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top.mm}, "distance (mm)", top.capped};
-  const report::FaceBacking backing = backing_in_frame(p.skin_rest, base.inputs.landmarks, frame);
+  const report::FaceBacking backing =
+      backing_in_frame(p.skin_rest, base.inputs.landmarks, base.teeth, frame);
   const auto drawn = [&](const render::Surface& skin, const simulate::Performance& own_run,
                          const render::Camera& camera) {
     const BackingSurfaces behind(backing, frame, skin.mesh.points, base.teeth,

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <filesystem>
 #include <vector>
 
+#include "hyperex/geometry/types.hpp"
 #include "hyperex/metrics/variant_comparison.hpp"
+#include "hyperex/render/camera.hpp"
 #include "hyperex/run/outputs.hpp"
 #include "hyperex/session/variants.hpp"
 
 namespace hyperex::run {
 using session::VariantRun;
 
-/// The face of the scene and of each variant at the scene's peak, from the front and three-quarter,
-/// coloured by the greatest distance over time from base, to a scale on which none of
-/// the others is lost beside one that moves much more. One comparison a run.
+/// Three cameras: obliquely from the right, from the front, and obliquely from the left, because a
+/// variant may change either side. Each shows all the points (face frame), at the same scale.
+std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect);
+
+/// The face of base and of each variant in the frame in which they differ most, seen by
+/// cameras_on() and coloured by the greatest distance from base over time. The scale of the colours
+/// is chosen such that small differences remain visible beside a large one. One comparison per
+/// variant.
 void draw_variants(const Results& base, const std::vector<metrics::VariantComparison>& compared,
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file);
 
-/// S(t) of all with the noise floor, and what each adds to xi_L - xi_R. Nothing where the scene has
-/// one frame.
+/// S(t) of all faces with the noise floor, and the change of xi_L - xi_R by each variant. Writes
+/// nothing if there is only one frame.
 void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& runs,
                            const std::filesystem::path& file);
 

@@ -7,6 +7,8 @@
 #include <numbers>
 
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/smooth_step.hpp"
+#include "hyperex/report/eye_model.hpp"
 #include "hyperex/sample/painted_face.hpp"
 
 namespace hyperex::sample {
@@ -55,8 +57,7 @@ double Person::jaw_share(const Vec3& p) const {
   const Vec3 &a = lip_line_[k - 1], &b = lip_line_[k];
   const double line_y = a.y() + (b.y() - a.y()) * (x - a.x()) / (b.x() - a.x());
   const double half_step = kStepBetweenLips_m + kStepWidening * std::abs(p.x() - x);
-  const double t = std::clamp(((line_y - p.y()) / half_step + 1) / 2, 0.0, 1.0);
-  return t * t * (3 - 2 * t);
+  return smooth_step(((line_y - p.y()) / half_step + 1) / 2);
 }
 
 Person::Moving Person::moving(const Points& rest, const io::Landmarks& landmarks) const {
@@ -78,16 +79,9 @@ Points Person::Moving::at(const Pose& pose, const Vec3& condyle) const {
 }
 
 std::vector<Person::Part> Person::behind(const Points& skin) const {
-  constexpr int eye_colours[][3] = {{228, 224, 220}, {96, 76, 58}, {20, 18, 18}};
   std::vector<Part> parts;
-  for (const report::Eyeball& eye : backing_.eyeballs) {
-    const int* colour = eye_colours[0];
-    for (TriMesh& mesh : report::eyeball_parts(eye)) {
-      const auto colours = one_colour(mesh, colour[0], colour[1], colour[2]);
-      parts.push_back({std::move(mesh), colours});
-      colour += 3;
-    }
-  }
+  for (const report::Eyeball& eye : backing_.eyeballs)
+    parts.push_back({report::placed_eye(eye), report::eye_model().colours});
   for (const report::Opening& opening : backing_.openings) {
     TriMesh mesh = report::pocket(opening, skin);
     const auto colours = one_colour(mesh, 70, 30, 30);

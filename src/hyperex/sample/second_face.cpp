@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/sample/second_face.hpp"
 
-#include <cmath>
 #include <vector>
 
 #include "hyperex/sample/bumps.hpp"
@@ -41,42 +40,10 @@ const std::vector<Bump> kShape = {
     {"ibug68_24", {0, 1.2, 0}, 12},
 };
 
-constexpr double kClosed = 0.85;            // share of the gap between the embedded face's lips
-constexpr double kLowerLipReach_m = 0.015;  // the rise decays downwards as a Gaussian of this sigma
-
-/// The upper and the lower edge of the gap between the lips, from corner to corner, with rising x.
-struct Gap {
-  std::vector<Vec3> upper, lower;
-
-  explicit Gap(const Points& points) {
-    const auto& contour = face::lip_contour();  // the upper lip, then the lower one back
-    for (std::size_t i = 0; i <= contour.size() / 2; ++i) {
-      upper.push_back(points.row(contour[i]).transpose());
-      lower.push_back(points.row(contour[(contour.size() - i) % contour.size()]).transpose());
-    }
-  }
-  /// How far a point rises. The edge of the lower lip rises by a share of the gap; points below it
-  /// rise less.
-  double rise(const Vec3& p) const {
-    if (p.x() <= lower.front().x() || p.x() >= lower.back().x()) return 0;
-    std::size_t k = 1;
-    while (k + 1 < lower.size() && lower[k].x() < p.x()) ++k;
-    const double t = (p.x() - lower[k - 1].x()) / (lower[k].x() - lower[k - 1].x());
-    const double low = (1 - t) * lower[k - 1].y() + t * lower[k].y();
-    const double high = (1 - t) * upper[k - 1].y() + t * upper[k].y();
-    if (p.y() > (low + high) / 2) return 0;
-    const double below = (p.y() - low) / kLowerLipReach_m;
-    return kClosed * (high - low) * std::exp(-below * below / 2);
-  }
-};
-
 }  // namespace
 
 anatomy::EmbeddedFace second_face() {
   anatomy::EmbeddedFace face = anatomy::embedded_face();
-  const Gap gap(face.mesh.points);
-  for (auto point : face.mesh.points.rowwise()) point.y() += gap.rise(point.transpose());
-  for (auto& [name, at] : face.landmarks) at.y() += gap.rise(at);
   const Points moved = face.mesh.points + displacement(kShape, face.landmarks, face.mesh.points);
   Points landmarks(Eigen::Index(face.landmarks.size()), 3);
   Eigen::Index row = 0;

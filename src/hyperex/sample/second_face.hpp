@@ -5,7 +5,7 @@
 namespace hyperex::sample {
 
 /// The embedded face with another person's proportions: a longer and wider jaw, a wider mouth, a
-/// longer nose with a bridge, nearly closed lips, and the slight asymmetry that every face has.
+/// longer nose with a bridge, and the slight asymmetry that every face has.
 /// Its vertices and triangles are those of anatomy::embedded_face() in the same order, moved by
 /// smooth displacements about landmarks (bumps.hpp). The same face every time.
 anatomy::EmbeddedFace second_face();

@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/lower_case.hpp"
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
@@ -28,6 +31,15 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
+/// Whether a column of a table is a blend shape's, as of a blink alone. Live Link writes them with
+/// a capital letter.
+bool names_a_blend_shape(const std::string& table) {
+  const std::string columns = "," + lower_case(table.substr(0, table.find_first_of("\r\n"))) + ",";
+  return std::ranges::any_of(expression::arkit_shapes(), [&](const std::string& shape) {
+    return columns.find("," + lower_case(shape) + ",") != std::string::npos;
+  });
+}
+
 }  // namespace
 
 std::string recording_key(const std::filesystem::path& recording) {
@@ -35,9 +47,7 @@ std::string recording_key(const std::filesystem::path& recording) {
   if (ending == ".trc") return "motion.file";
   if (ending != ".csv") return "motion.recording";
   const std::string head = read_file(recording).substr(0, 65536);
-  if (head.find("mouthSmileLeft") != std::string::npos ||
-      head.find("MouthSmileLeft") != std::string::npos)
-    return "motion.arkit";
+  if (names_a_blend_shape(head)) return "motion.arkit";
   if (head.find("AU12_r") != std::string::npos) return "motion.openface";
   return "motion.file";
 }

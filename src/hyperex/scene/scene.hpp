@@ -13,6 +13,7 @@
 #include "hyperex/core/describe.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/face/complexion.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/exaggerate.hpp"
@@ -61,6 +62,7 @@ struct MotionOptions {
   std::filesystem::path recording;        ///< of a camera: a folder or a file
   std::filesystem::path openface, arkit;  ///< expressions: action units, blend shapes
   std::filesystem::path candide;       ///< file of the face model CANDIDE-3; empty: canonical face
+  std::filesystem::path rig;           ///< file of a rig that the expressions move; empty: no rig
   std::optional<io::LengthUnit> unit;  ///< none: as the file says ("file")
   bool mirrored = false;               ///< whether the recording's pictures are mirrored
   std::vector<std::string> rigid_points;  ///< determine the head pose; empty: chosen automatically
@@ -135,6 +137,10 @@ struct MotionOptions {
     v.option(HX_MEMBER(candide),
              "CANDIDE-3's .wfm file, to be the face model for motion.recording, motion.openface "
              "and motion.arkit. Empty: the canonical face.");
+    v.option(HX_MEMBER(rig),
+             "A glTF or GLB file with morph targets of ARKit's names, as hyperex rig writes it: "
+             "motion.arkit or motion.openface moves this rig in place of the canonical face, and "
+             "its points are then the recording. Empty: no rig.");
   }
 };
 
@@ -187,10 +193,12 @@ struct OutputOptions {
   double glb_tolerance_m = 1e-4;  ///< largest error of any vertex in any frame
   double glb_max_mb = 20;         ///< of performance.glb
   double most_gb = 2;             ///< of all outputs; a run that would write more is refused
+  double most_memory_gb = 8;      ///< a run that would take more is refused
   bool full_paths = false;        ///< write full paths in summary.json and report.html
   double symmetry_floor = 1e-6;
   double lowpass_hz = 6;    ///< cut-off for speeds and paths; 0: none
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from the points
+  face::SkinTone skin_tone = face::SkinTone::light;  ///< where a scan has no colours
 
   static constexpr const char* about = "What is written.";
   template <class Visitor>
@@ -199,6 +207,9 @@ struct OutputOptions {
     v.option(HX_MEMBER(full_paths),
              "Write full paths of the input files into summary.json and report.html. By default "
              "only file names are written, since folder names may contain a patient's name.");
+    v.option(HX_MEMBER(skin_tone),
+             "The tone of skin in pictures and pages where the scan has neither a texture nor "
+             "colours of its own.");
     v.option(HX_MEMBER(symmetry_floor),
              "The least difference of xi that S(t) resolves; at perfect symmetry it would be minus "
              "infinity.",
@@ -243,6 +254,10 @@ struct OutputOptions {
              "The most that a run may write, by an estimate: one that would write more does not "
              "begin. hyperex check states the estimate.",
              {.unit = kGigabytes, .bounds = {0.01, 1e6}});
+    v.option(HX_MEMBER(most_memory_gb),
+             "The most memory that a run may take, by an estimate: one that would take more does "
+             "not begin. hyperex check states the estimate.",
+             {.unit = kGigabytes, .bounds = {0.1, 1e6}});
   }
 };
 

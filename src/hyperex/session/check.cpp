@@ -13,10 +13,8 @@ namespace hyperex::session {
 std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   Progress progress("reading scan and recording", 0);
   Inputs inputs = read_inputs(scene, Extent::quick);
-  if (const auto expected = expected_cost(scene, inputs, Extent::quick)) {
-    check_disk(scene, *expected, inputs.notes);
-    if (cost) *cost = sentence_of(*expected);
-  }
+  const auto expected = checked_cost(scene, inputs, Extent::quick);
+  if (cost && expected) *cost = sentence_of(*expected);
   std::vector<Note> notes = std::move(inputs.notes);
   const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||

@@ -121,7 +121,7 @@ void note_missing_support(const scene::Scene& scene, Inputs& in) {
     in.notes.push_back(make_note(
         "support.none",
         "nothing holds the tissue: support.border, support.skull and support.mandible are free and "
-        "support.field_kpa_per_mm is 0; it hangs on the driven points alone and may swing about "
+        "support.field_kpa_per_mm is 0; only the driven points hold it, and it may swing about "
         "them"));
 }
 

@@ -63,23 +63,23 @@ bool is_of_a_part(int number) {
   });
 }
 
-/// Whether a point belongs to no part that the note names as a whole, is not driven, and lies on
-/// the skin.
-bool is_further(const scene::Scene& scene, const motion::Motion& motion,
-                const std::vector<std::string>& driven, const std::string& name) {
+/// Whether a point, one of those on the skin, belongs to no part that the note names as a whole and
+/// is not driven.
+bool is_further(const motion::Motion& motion, const std::vector<std::string>& driven,
+                const std::string& name) {
   const auto has = [](const std::vector<std::string>& names, const std::string& one) {
     return std::ranges::find(names, one) != names.end();
   };
   const std::string other = face::other_name(name);
-  if (has(driven, name) || has(driven, other) || has(scene.motion.rigid_points, name)) return false;
+  if (has(driven, name) || has(driven, other)) return false;
   const bool told_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
   const auto number = number_of(name);
-  return name != "stomion" && !told_as_other && !(number && is_of_a_part(*number));
+  return !told_as_other && !(number && is_of_a_part(*number));
 }
 
 /// "cheek_L (5.1 mm)", "glabella (3.0 mm)" and "and 9 more": first those away from the lips, where
 /// nothing else is driven, then those that go farthest.
-std::vector<std::string> further_points(const scene::Scene& scene, const motion::Motion& motion,
+std::vector<std::string> further_points(const motion::Motion& motion,
                                         const std::vector<std::string>& driven) {
   struct Point {
     bool of_lips;
@@ -87,23 +87,24 @@ std::vector<std::string> further_points(const scene::Scene& scene, const motion:
     std::string name;
   };
   std::vector<Point> points;
-  for (std::size_t p = 0; p < motion.names.size(); ++p) {
-    const std::string& name = motion.names[p];
-    const bool of_tracked_mesh = (motion.triangles.array() == int(p)).any();
-    if (of_tracked_mesh || !is_further(scene, motion, driven, name)) continue;
+  simulate::DriveOptions all;
+  all.all_points = true;
+  for (const std::string& name : all.names_in(motion)) {
+    const bool of_tracked_mesh = (motion.triangles.array() == motion.index_of(name)).any();
+    if (of_tracked_mesh || !is_further(motion, driven, name)) continue;
     if (const double far_m = reach_m(motion, name); far_m >= kMoves_m)
       points.push_back({number_of(name).value_or(0) >= 48, far_m, name});
   }
   std::ranges::stable_sort(points, [](const Point& a, const Point& b) {
     return std::pair(a.of_lips, -a.far_m) < std::pair(b.of_lips, -b.far_m);
   });
-  std::vector<std::string> told;
+  std::vector<std::string> named;
   for (const Point& point : points)
-    if (told.size() < kMostNamed)
-      told.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.far_m));
-  if (points.size() > told.size())
-    told.push_back(fmt::format("and {} more", points.size() - told.size()));
-  return told;
+    if (named.size() < kMostNamed)
+      named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.far_m));
+  if (points.size() > named.size())
+    named.push_back(fmt::format("and {} more", points.size() - named.size()));
+  return named;
 }
 
 bool by_default(const scene::Scene& scene) {
@@ -128,10 +129,6 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
 
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
   std::vector<std::string> points = scene.drive.names_in(motion);
-  if (scene.drive.all_points)
-    std::erase_if(points, [&](const std::string& name) {
-      return std::ranges::count(scene.motion.rigid_points, name) > 0;
-    });
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
   if (by_default(scene)) add_moving_parts(motion, points);
@@ -163,7 +160,7 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
     notes.push_back(make_note("drive.parts_joined",
                               fmt::format("driven in addition to the mouth, since they move: {}",
                                           fmt::join(joined, ", "))));
-  std::ranges::copy(further_points(scene, motion, driven), std::back_inserter(left_out));
+  std::ranges::copy(further_points(motion, driven), std::back_inserter(left_out));
   if (!left_out.empty())
     notes.push_back(make_note(
         "drive.measured_not_driven",

@@ -88,6 +88,7 @@ void FaceSession::Impl::read() {
   seconds.read = watch.lap();
   report(notes_on_inputs(Severity::note));
   report(notes_on_inputs(Severity::warning));
+  if (session_options.inputs) session_options.inputs(inputs);
 }
 
 void FaceSession::Impl::mesh() {
@@ -149,7 +150,7 @@ void FaceSession::Impl::take(scene::Scene next) {
   keep_variants(std::move(before), options_of_runs, same_base);
 }
 
-/// What variants of the same name had, as far as it still holds.
+/// Keeps the results of variants of the same name, as far as they are still valid.
 void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
                                       const std::vector<simulate::SimulationOptions>& options,
                                       bool same_base) {

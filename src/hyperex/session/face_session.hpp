@@ -45,6 +45,8 @@ struct SessionOptions {
   Certainty certainty = Certainty::with_runs;
   std::function<void(const std::string&)> stage = {};  ///< called as each stage begins
   std::function<void(const Note&)> note = {};          ///< called with each note as it is found
+  /// Called with the inputs before anything is meshed. If it throws, so does the constructor.
+  std::function<void(const Inputs&)> inputs = {};
 };
 
 /// Wall time of the stages, s; 0 for those that were kept.
@@ -178,11 +180,11 @@ class FaceSession {
 
   /// The tissue of another scene of this face. Throws InputError.
   simulate::TissueValues tissue_of(const scene::Scene& scene);
-  /// How much of the change of a region ([[tissue.region]]) of `scene`, another scene of this face,
-  /// holds at each vertex of the skin, 0 to 1. Throws InputError.
+  /// The share (0 to 1) of the change by a region ([[tissue.region]]) of `scene`, another scene of
+  /// this face, that applies at each vertex of the skin. Throws InputError.
   Eigen::VectorXd region_shares(const scene::Scene& scene, std::size_t region);
-  /// Each point moves as the mirror image of its counterpart does. Throws InputError where points
-  /// have none.
+  /// The mirrored motion: each point moves as the mirror image of its counterpart. Throws
+  /// InputError where points have no counterpart.
   simulate::AlignedMotion mirrored_motion() const;
 
   StageSeconds seconds() const;

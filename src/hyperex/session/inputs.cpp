@@ -47,22 +47,24 @@ void read_scan_files(const scene::Scene& scene, Files& files) {
 }
 
 void read_recording_files(const scene::Scene& scene, Extent extent, Files& files) {
-  if (scene.motion.source.embedded) return;
   Part& recording = files.recording;
   recording.problems.attempt([&] {
+    check_rig(scene);
+    if (scene.motion.source.embedded) return;
     const motion::Motion m = read_motion(scene, extent, recording.in);
     files.steady = steady_motion(scene, m, extent, recording.in);
   });
 }
 
-/// What was read, in one; throws at once what must be known before landmarks are searched, which
-/// takes long.
+/// Combines what was read. Errors that would make the search for landmarks useless, which takes
+/// long, are thrown at once.
 Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& problems) {
   Inputs in = std::move(files.scan.in);
   const Inputs &recording = files.recording.in, &completion = files.completion.in;
   append(in.notes, recording.notes);
   in.head_shift_uncertainty_mm = recording.head_shift_uncertainty_mm;
   in.head_turn_uncertainty_deg = recording.head_turn_uncertainty_deg;
+  in.pose_floor_mm = recording.pose_floor_mm;
   in.lasts_s = recording.lasts_s;
   in.lead_s = recording.lead_s;
   problems.add(files.scan.problems);
@@ -111,7 +113,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   add(in.notes, idle_law_warning(scene));
   const scene::MotionOptions& recorded = scene.motion;
   add(in.notes, misfit_warning(in.motion, of_weights(scene) || !recorded.candide.empty()));
-  if (!of_weights(scene)) add(in.notes, start_warning(steady, at_rest));
+  add(in.notes, start_warning(steady, at_rest, of_weights(scene)));
   add(in.notes, exchanged_warning(steady, at_rest));
 }
 

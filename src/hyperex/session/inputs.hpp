@@ -21,9 +21,12 @@ struct Inputs {
   simulate::AlignedMotion motion;   ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
+  /// How far an error of the head's pose may part the sides, by the recording's pairs of points
+  /// (metrics/pose_floor.hpp), without motion.gain.
+  std::map<std::string, double> pose_floor_mm;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
-  /// How long the recording is in the run, from time.start_s on; 0: unknown. Of a camera's
-  /// recording in a quick reading by its number of frames.
+  /// Length of the recording in the run, from time.start_s on; 0: unknown. In a quick reading of a
+  /// camera's recording, it is computed from the number of frames.
   double lasts_s = 0;
   /// The part of lasts_s before time.start_s, in which the run leads the face from rest into the
   /// recording; in the recording's own seconds.
@@ -40,7 +43,7 @@ struct Inputs {
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::vector<Note>& notes,
                              const KeptResults& kept = {});
 
-/// How much of what a scene names is read.
+/// Whether the files of a scene are read completely.
 enum class Extent {
   full,
   /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none

@@ -125,7 +125,7 @@ std::string packed(const json& value) {
   return {bytes.begin(), bytes.end()};
 }
 
-/// What `read` makes of the bytes; nothing where they are not what it expects.
+/// The result of `read`, or nothing if the bytes do not have the expected form.
 template <class Read>
 auto unpacked(const std::string& bytes, Read read)
     -> std::optional<decltype(read(std::declval<const json&>()))> {

@@ -12,8 +12,8 @@
 namespace hyperex::session {
 namespace {
 
-/// Of the pattern of the matrices, and of what mostly says which unknowns are prescribed: the order
-/// itself is checked against them.
+/// The key of an order: the pattern of the matrices, and the options that usually determine which
+/// unknowns are prescribed. The stored order is checked against the prescribed unknowns.
 std::string order_key(const scene::Scene& scene, const Inputs& inputs,
                       const simulate::Simulator& simulator) {
   Packer of;

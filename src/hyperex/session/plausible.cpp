@@ -15,14 +15,16 @@
 namespace hyperex::session {
 namespace {
 
+constexpr double kLongestStep_s = 0.5, kLongestSmoothStep_s = 0.1;
 constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
 constexpr double kMisfit_mm = 10, kLeastScale = 0.8, kMostScale = 1.25;
 // By the 68 points: 3.1 to 3.9 mm between the three people of one rig, 5.3 to 8.8 mm in ten of
 // eleven other pairs of people; of one person 0 (exact points) to 3.5 mm (a depth camera).
 constexpr double kMisfitOfPeople_mm = 5;
 constexpr std::size_t kManyCommon = 20;
-// Of faces 1.7 to 2.1 mm (embedded face, Spacetime, AnimFace); ears, necks and ragged borders reach
-// 10 mm (subject A 38 mm from the nearest landmark, humface 27 mm) and are no part of the face.
+// Measured: 1.7 to 2.1 mm on faces (embedded face, Spacetime, AnimFace). At ears, necks and ragged
+// borders 10 mm are reached, but these are not part of the face (38 mm from the nearest landmark
+// for subject A, 27 mm for humface).
 constexpr double kSkinOff_mm = 5, kOfTheFace_m = 0.025;
 
 /// Rows of the points that both sides name, measured in the first sample.
@@ -105,7 +107,9 @@ std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool 
           aligned.rms_mm, scale, most_mm, kLeastScale, kMostScale));
 }
 
-std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
+                                  bool of_weights) {
+  if (of_weights) return std::nullopt;
   const auto started =
       motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
   if (!started) return std::nullopt;
@@ -127,16 +131,28 @@ std::string timing_sentence(const motion::Motion& m) {
 }
 
 std::optional<Note> timing_warning(const motion::Motion& m) {
-  constexpr double longest_step_s = 0.5, longest_s = 600;
+  constexpr double longest_s = 600;
   if (m.time_s.size() < 2) return std::nullopt;
   const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step(m.time_s);
-  if (step_s <= longest_step_s && lasts_s <= longest_s) return std::nullopt;
+  if (step_s <= kLongestStep_s && lasts_s <= longest_s) return std::nullopt;
   return make_warning(
       "recording.time_unit_doubtful",
       fmt::format(
           "the recording's time rises to {:.4g} s in steps of {:.3g} s (median; expected: at most "
           "{:g} s in all, steps of at most {:g} s): milliseconds? Time is in seconds",
-          m.time_s.back(), step_s, longest_s, longest_step_s));
+          m.time_s.back(), step_s, longest_s, kLongestStep_s));
+}
+
+std::optional<Note> coarse_warning(const motion::Motion& m) {
+  if (m.time_s.size() < 3) return std::nullopt;
+  const double step_s = median_step(m.time_s);
+  if (step_s <= kLongestSmoothStep_s || step_s > kLongestStep_s) return std::nullopt;
+  return make_warning(
+      "recording.coarse",
+      fmt::format("the recording has a sample every {:.2g} s (median): between samples a curve is "
+                  "laid through them, which may go beyond them by some millimetres; expected: at "
+                  "most {:g} s apart",
+                  step_s, kLongestSmoothStep_s));
 }
 
 std::optional<Note> idle_law_warning(const scene::Scene& scene) {

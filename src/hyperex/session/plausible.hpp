@@ -33,8 +33,9 @@ void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool of_a_model);
 
 /// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
-/// (motion::started_in_expression).
-std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+/// (motion::started_in_expression). `of_weights`: of blend shapes, whose rest is known; never.
+std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
+                                  bool of_weights);
 
 /// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
 std::string timing_sentence(const motion::Motion& m);
@@ -43,7 +44,11 @@ std::string timing_sentence(const motion::Motion& m);
 /// more than ten minutes in all.
 std::optional<Note> timing_warning(const motion::Motion& m);
 
-/// `recording.wild_samples`: names the first samples that were left out, since no face moves so.
+/// `recording.coarse`: the median step is above 0.1 s, up to the bound of the former.
+std::optional<Note> coarse_warning(const motion::Motion& m);
+
+/// `recording.wild_samples`: names the first samples that were left out, because no face moves like
+/// that.
 std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
 
 /// `recording.jumps`: names the first readings to which a point moves as no face does, and which
@@ -76,7 +81,7 @@ struct SkinOff {
 };
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// `skin.far_from_scan`: that is more than 5 mm.
+/// `skin.far_from_scan`, if that distance exceeds 5 mm.
 std::optional<Note> skin_warning(const SkinOff& off);
 
 }  // namespace hyperex::session

@@ -12,7 +12,7 @@
 
 namespace hyperex::session {
 
-/// What depends only on the scan, its landmarks and the options of the mesh.
+/// The results that depend only on the scan, its landmarks and the options of the mesh.
 struct PreparedFace {
   std::shared_ptr<const tissue::TissueMesh> mesh;
   metrics::RestAsymmetry at_rest;

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hyperex/expression/weight_doubts.hpp"
+#include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -51,13 +52,14 @@ void warn_of_weights(const scene::MotionOptions& options, const expression::Blen
 }
 
 /// The points of a face model that recorded expressions move.
-motion::Motion read_expressions(const scene::MotionOptions& options, Inputs& in) {
+motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
+  const scene::MotionOptions& options = scene.motion;
   const expression::BlendShapes shapes = options.arkit.empty()
                                              ? expression::read_openface(options.openface)
                                              : expression::read_arkit(options.arkit);
   std::vector<std::string> notes = shapes.notes;
   std::optional<expression::FaceModel> own;
-  const expression::FaceModel& model = face_model(options, own);
+  const expression::FaceModel& model = face_model(scene, own);
   motion::Motion m = expression::motion_of(shapes, model, notes);
   const char* key = options.arkit.empty() ? "motion.openface" : "motion.arkit";
   for (const auto& note : notes)
@@ -124,6 +126,17 @@ bool is_read_whole(const scene::Scene& scene, Extent extent) {
 
 }  // namespace
 
+void check_rig(const scene::Scene& scene) {
+  if (scene.motion.rig.empty()) return;
+  if (scene.motion.arkit.empty() && scene.motion.openface.empty())
+    throw InputError(scene::problem_at(scene, "motion.rig",
+                                       "none, as there is neither motion.arkit nor "
+                                       "motion.openface: only weights move a rig"));
+  if (!scene.motion.candide.empty())
+    throw InputError(
+        scene::problem_at(scene, "motion.rig", "none, as motion.candide names the face model"));
+}
+
 bool of_weights(const scene::Scene& scene) {
   return !scene.motion.arkit.empty() || !scene.motion.openface.empty() || scene.given.of_weights;
 }
@@ -136,7 +149,7 @@ motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in)
                           "can be turned back"));
   if (scene.given.motion) return *scene.given.motion;
   if (!scene.motion.recording.empty()) return track_recording(scene, extent, in);
-  if (scene.motion.source.file.empty()) return read_expressions(scene.motion, in);
+  if (scene.motion.source.file.empty()) return read_expressions(scene, in);
   auto m = motion::read_motion(scene.motion.source.file, scene.motion.unit);
   if (!m.unit_note.empty())
     in.notes.push_back(make_note("recording.unit", "motion: " + m.unit_note));
@@ -148,12 +161,13 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    std::optional<Note> doubt = timing_warning(m);
-    for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
-                                    {"motion.openface", &scene.motion.openface},
-                                    {"motion.recording", &scene.motion.recording}})
-      if (doubt && !file->empty()) doubt->key = key;
-    add(in.notes, doubt);
+    for (std::optional<Note> doubt : {timing_warning(m), coarse_warning(m)}) {
+      for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
+                                      {"motion.openface", &scene.motion.openface},
+                                      {"motion.recording", &scene.motion.recording}})
+        if (doubt && !file->empty()) doubt->key = key;
+      add(in.notes, doubt);
+    }
   }
   const motion::MendedMotion mended = motion::without_wild_samples(m);
   add(in.notes, wild_samples_warning(mended));
@@ -173,8 +187,10 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   // Expressions move a face model, whose head stays where it is.
   auto steady = of_weights(scene) ? motion::with_still_head(filled.motion)
                                   : motion::stabilise(filled.motion, options);
+  steady.motion.skull_points = options.rigid_points;
   motion::check_reach(steady.motion);
   note_head(steady, in);
+  if (whole) in.pose_floor_mm = metrics::pose_floors_mm(steady.motion, steady.poses);
   if (whole) {
     settle_rest(scene, steady.motion, in);
     add(in.notes, stillness_warning(steady.motion));
@@ -202,7 +218,7 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
   if (whole) {
-    if (!of_weights(scene)) add(in.notes, start_warning(m, average));
+    add(in.notes, start_warning(m, average, of_weights(scene)));
     add(in.notes, exchanged_warning(m, average));
   }
   in.notes.push_back(

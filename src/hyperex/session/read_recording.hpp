@@ -7,6 +7,10 @@ namespace hyperex::session {
 
 /// The parts of read_inputs() that concern the recording. Notes go into `in`.
 
+/// A rig is moved by weights and is the face model then. Throws InputError where motion.rig stands
+/// without weights or beside another face model.
+void check_rig(const scene::Scene& scene);
+
 /// Whether the recording is one of expressions' weights (motion.arkit, motion.openface), which are
 /// 0 at rest.
 bool of_weights(const scene::Scene& scene);

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/kept.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "hyperex/tissue/mesh/skin_depth.hpp"
@@ -18,8 +19,7 @@ void read_scan(const scene::Scene& scene, Inputs& in) {
     return;
   }
   if (scene.scan.source.embedded) {
-    in.scan.file = "embedded face";
-    in.scan.mesh = anatomy::embedded_face().mesh;
+    in.scan = embedded_scan(scene.output.skin_tone);
     return;
   }
   in.scan = io::read_scan(scene.scan.source.file, scene.scan.unit);

@@ -12,10 +12,12 @@
 namespace hyperex::session {
 namespace {
 
-/// What rounding and the course of a motion itself may leave; the resolution of a run is 0.1 mm.
+/// Smaller estimates may result from rounding and from the motion itself; the resolution of a run
+/// is 0.1 mm.
 constexpr double kNone_m = 1e-5;
 
-/// The points that S(t) takes, as they matter most; of a recording without them all points.
+/// The columns of the points that S(t) uses, because they matter most; all points if the recording
+/// lacks these.
 std::vector<int> judged_columns(const motion::Motion& m) {
   std::vector<int> columns = metrics::symmetry_columns(m);
   if (!columns.empty()) return columns;
@@ -39,9 +41,10 @@ RecordedJitter jitter_of_short(const motion::Motion& m) {
 
 RecordedJitter recorded_jitter(const motion::Motion& m) {
   const double jitter_m = motion::jitter_of_motion(m, judged_columns(m));
-  if (std::isnan(jitter_m)) return {0, false, "the recording is too short to measure its jitter"};
+  if (std::isnan(jitter_m))
+    return {0, false, "the recording is too short to measure its jitter", true};
   if (jitter_m < kNone_m)
-    return {0, true, "no jitter shows in the recorded points: they are exact, or smoothed"};
+    return {0, false, "no jitter shows in the recorded points: they are exact, or smoothed"};
   return {jitter_m, true,
           fmt::format(
               "jitter of the recorded points, estimated from their fourth differences in "
@@ -62,7 +65,7 @@ void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motio
   const bool tracked = !scene.motion.recording.empty();
   if (scene.motion.source.embedded || (tracked && extent != Extent::full)) return;
   RecordedJitter found = recorded_jitter(m);
-  if (!found.known && tracked) found = jitter_of_short(m);
+  if (found.too_short && tracked) found = jitter_of_short(m);
   in.jitter_m = found.jitter_m;
   in.notes.push_back(
       in.jitter_m > 0

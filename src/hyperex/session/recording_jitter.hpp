@@ -9,12 +9,14 @@ namespace hyperex::session {
 /// The jitter that recorded points show, and how it was found.
 struct RecordedJitter {
   double jitter_m = 0;  ///< standard deviation of a coordinate; 0: none, or not known
+  /// False if the recording is too short, or shows no jitter: it may be exact, or smoothed.
   bool known = true;
   std::string how;  ///< a clause for a note or a line of output
+  bool too_short = false;
 };
 
 /// From the fourth differences in time (motion::jitter_of_motion) of the points that S(t) uses, or
-/// of all points where it can use none; below 0.01 mm it counts as none. Unknown for fewer than 20
+/// of all points where it can use none; below 0.01 mm none shows. Too short with fewer than 20
 /// samples. `m`: without head pose, with recorded times and lengths.
 RecordedJitter recorded_jitter(const motion::Motion& m);
 

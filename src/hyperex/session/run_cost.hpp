@@ -13,11 +13,12 @@ namespace hyperex::session {
 
 /// The expected cost of a run with all its outputs.
 struct RunCost {
-  double frames = 0;                        ///< of each face
-  double variants = 0;                      ///< besides base
-  double from_s = 0, to_s = 0;              ///< what is run of the recording, from its start
-  double disk_bytes = 0, frames_bytes = 0;  ///< in all; of them frames/, for ParaView
-  double memory_bytes = 0;
+  double frames = 0;                          ///< of each face
+  double nodes = 0;                           ///< of the mesh
+  double variants = 0;                        ///< besides base
+  double from_s = 0, to_s = 0;                ///< what is run of the recording, from its start
+  double disk_bytes = 0, frames_bytes = 0;    ///< in all; of them frames/, for ParaView
+  double memory_bytes = 0, motion_bytes = 0;  ///< in all; of them the motion of all faces
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
   /// unknown, as at finite strain or with contact.
   double seconds = 0, variants_seconds = 0;
@@ -32,9 +33,14 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
 /// ParaView: 0.94 GB), ..."
 std::string sentence_of(const RunCost& cost);
 
-/// Throws InputError where the run would write more than output.most_gb; where one of `notes`
-/// doubts the unit of the recording's times, about that.
-void check_disk(const scene::Scene& scene, const RunCost& cost,
+/// Throws InputError if the run would write more than output.most_gb or take more memory than
+/// output.most_memory_gb. If `notes` contains a doubt about the unit of the recording's times, the
+/// message is about that.
+void check_cost(const scene::Scene& scene, const RunCost& cost,
                 const std::vector<Note>& notes = {});
+
+/// expected_cost(), after check_cost().
+std::optional<RunCost> checked_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,
+                                    const tissue::VolumeMesh* volume = nullptr);
 
 }  // namespace hyperex::session

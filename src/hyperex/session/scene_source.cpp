@@ -15,7 +15,7 @@ namespace hyperex::session {
 namespace {
 using nlohmann::json;
 
-/// A key and what stands below it: "tissue.region" and "[0].young_factor".
+/// A key and the position within its value: "tissue.region" and "[0].young_factor".
 struct PartName {
   std::string key, below;
 };

@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "hyperex/anatomy/teeth/teeth_fit.hpp"
+#include "hyperex/anatomy/teeth/tongue.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/close_mesh.hpp"
 #include "hyperex/io/scan.hpp"
@@ -93,6 +95,8 @@ std::shared_ptr<const anatomy::Teeth> teeth_of(const scene::Scene& scene, const 
     }
   }
   if (teeth->upper.empty() && teeth->lower.empty()) return nullptr;
+  if (const auto frame = face::face_frame_of_corners(inputs.landmarks))
+    teeth->tongue = anatomy::tongue_in(*teeth, *frame);
   return teeth;
 }
 

@@ -20,7 +20,8 @@ class TissueFields {
   /// Nothing where the tissue is uniform. Throws InputError naming the scene's key, preceded by
   /// `owner`: "variant[0].".
   std::optional<tissue::TissueField> of(const scene::Scene& scene, const std::string& owner = "");
-  /// How much of a region's change holds at each vertex of the skin, 0 to 1. Errors as above.
+  /// The share (0 to 1) of a region's change that applies at each vertex of the skin. Errors as
+  /// above.
   Eigen::VectorXd region_shares(const scene::Scene& scene, std::size_t region);
 
  private:

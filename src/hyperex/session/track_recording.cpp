@@ -10,12 +10,15 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/session/kept.hpp"
+#include "hyperex/session/rig_face.hpp"
 #include "hyperex/tracking/output/tracking_outputs.hpp"
 
 namespace hyperex::session {
 
-const expression::FaceModel& face_model(const scene::MotionOptions& options,
+const expression::FaceModel& face_model(const scene::Scene& scene,
                                         std::optional<expression::FaceModel>& own) {
+  const scene::MotionOptions& options = scene.motion;
+  if (!options.rig.empty()) return own.emplace(rig_face(options.rig, scene.kept));
   if (options.candide.empty()) return expression::canonical_model();
   return own.emplace(expression::candide_model(options.candide.string()));
 }
@@ -95,7 +98,7 @@ double expected_length_s(const scene::MotionOptions& options) {
 RecordedFace track_face(const scene::Scene& scene, Extent extent) {
   RecordedFace recorded;
   std::optional<expression::FaceModel> own;
-  const expression::FaceModel& model = face_model(scene.motion, own);
+  const expression::FaceModel& model = face_model(scene, own);
   const auto source = open_recording(scene.motion);
   const tracking::Tracking tracking = tracked(scene.motion, *source, model, extent);
   const auto lost = std::count_if(tracking.frames.begin(), tracking.frames.end(),

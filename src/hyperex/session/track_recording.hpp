@@ -8,8 +8,8 @@
 
 namespace hyperex::session {
 
-/// The face model that motion.candide names, stored in `own`; else the canonical one.
-const expression::FaceModel& face_model(const scene::MotionOptions& options,
+/// The face model that motion.rig or motion.candide names, stored in `own`; else the canonical one.
+const expression::FaceModel& face_model(const scene::Scene& scene,
                                         std::optional<expression::FaceModel>& own);
 
 /// The interval of motion.rest_s; a single time means the sample there.

@@ -51,7 +51,7 @@ InputProblem wrong(const char* name, const std::string& value, const std::string
   return {{}, 0, name, value, expected};
 }
 
-/// What finite strain does not go with.
+/// Options that cannot be combined with finite strain.
 void check_finite(const SimulationOptions& o, std::vector<InputProblem>& problems) {
   if (o.model.law.c20 < fem::least_c20(o.model.law))
     problems.push_back(wrong("model.law.c20", fmt::format("{:g}", o.model.law.c20),

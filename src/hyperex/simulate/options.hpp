@@ -28,7 +28,7 @@ struct RegionOptions {
   Measured measured = Measured::none;
   std::vector<std::string> measured_points;  ///< at least one where measured is `points`
   double measured_radius_m = 0.015;          ///< of the skin around them
-  double blend_m = 0.005;                    ///< over which measured passes into physical
+  double blend_m = 0.005;                    ///< width of the transition from measured to simulated
   bool operator==(const RegionOptions&) const = default;
 
   static constexpr const char* about = "What follows the recording directly and what is simulated.";
@@ -89,13 +89,13 @@ struct SupportOptions {
   /// An elastic foundation that follows the field interpolated between the driven points: springs
   /// per area at the inner surface, everywhere but over the mandible. 0: none.
   double field_pa_per_m = 5e6;
-  /// Lips on the teeth: springs per area at the inner surface within `teeth_reach_m` of the lips,
-  /// where neither skull nor mandible is; those of the lower lip follow the jaw. 0: none.
+  /// Lips supported by the teeth: springs per area at the inner surface within `teeth_reach_m` of
+  /// the lips, outside of skull and mandible. Springs of the lower lip follow the jaw. 0: none.
   BoneLayer teeth_layer{0, 0};
   double teeth_reach_m = 0.014;
-  /// The floor of the mouth hangs between the edge of the mandible and the neck: springs per area
-  /// at the inner surface below that edge, towards the motion of its nearest point times
-  /// exp(-(d / throat_reach_m)^2) at the distance d to it. 0: none.
+  /// Floor of the mouth, between the edge of the mandible and the neck: springs per area at the
+  /// inner surface below that edge. Their base moves as the nearest point of the edge, times
+  /// exp(-(d / throat_reach_m)^2), where d is the distance to that point. 0: none.
   double throat_pa_per_m = 0, throat_reach_m = 0.09;
   std::vector<std::string> jaw_points;  ///< that carry the jaw; empty: chin points among the driven
   bool operator==(const SupportOptions&) const = default;
@@ -204,7 +204,7 @@ struct MuscleOptions {
   std::vector<MuscleGain> gains;
   bool mirrored = false;  ///< each muscle takes the activation of its counterpart
 
-  /// In the place of SimulationOptions::support's layers.
+  /// Used instead of the layers of SimulationOptions::support.
   BoneLayer skull_layer{2.5e6, 6e6}, mandible_layer{3.3e7, 1e7}, teeth_layer{3.1e5, 1.04e6};
   /// The ring of muscle in the lips is denser than other tissue: E is `lip_stiffening` times as
   /// large there, falling off as exp(-(d / lip_reach_m)^2) with the distance d to the lips' points.
@@ -228,21 +228,23 @@ struct MuscleOptions {
   /// Radius of the patches of skin over which the residual at many points is spread; at few points
   /// it is DriveOptions::patch_radius_m.
   double many_patch_m = 0.015;
-  /// In the patches around driven points: this share of the shape that a muscle or the jaw gives
-  /// the skin there, the rest of the field between the points; 1: all of it. Of muscles of the
-  /// cheek (TemplateMuscle::cheek) and of all others at few points, of all muscles at many, of the
-  /// jaw. A muscle may have its own (TemplateMuscle::few_share).
+  /// In the patches around driven points, the displacement is a mixture: this share of the
+  /// displacement by the muscle or the jaw, and the rest of the field interpolated between the
+  /// points. In order: muscles of the cheek (TemplateMuscle::cheek) and all other muscles with few
+  /// points, all muscles with many points, the jaw. A muscle may have its own share
+  /// (TemplateMuscle::few_share).
   double few_cheek_share = 1, few_lip_share = 0.4, many_muscle_share = 0.6, jaw_share = 0.5;
-  /// Between the driven points the skin is led from where muscles put it towards where shapes of
-  /// real faces would (shape_correction.hpp). 1 sigma of the error of these shapes at a point;
-  /// their share of the difference, over which length it is smoothed, and how far from the driven
-  /// points it begins and is whole.
+  /// Between the driven points, the displacement of the skin by muscles is corrected towards that
+  /// of shapes of real faces (shape_correction.hpp). Here: the standard deviation of the error of
+  /// these shapes at a point, their share of the difference, the length over which it is smoothed,
+  /// and the distances from the driven points at which the correction begins and reaches its full
+  /// value.
   bool shape_prior = true;
   double shape_sigma_m = 0.0015, shape_share = 0.7, shape_smoothing_m = 0.008;
   double shape_clear_m = 0.0035, shape_reach_m = 0.012;
   bool operator==(const MuscleOptions&) const = default;
 
-  /// The constants above are no options: only what a scene may change is described.
+  /// The constants above are not options: only members that a scene may change are described.
   static constexpr const char* about = "Muscles, where they move the face (`drive.by`).";
   template <class Visitor>
   static void describe(Visitor& v) {
@@ -270,7 +272,7 @@ constexpr auto words_of(Strain) {
 /// The same without gains and mirroring: forces as they were found.
 MuscleOptions as_recorded(MuscleOptions options);
 
-/// What the tissue is made of, and the elements that stand for it.
+/// The material law of the tissue, and the kind of element.
 struct ModelOptions {
   fem::ElementKind element = fem::ElementKind::tet4_star;
   fem::ViscousForm viscous_form = fem::ViscousForm::isotropic;
@@ -358,19 +360,18 @@ struct SolverOptions {
   }
 };
 
-/// What tissue may not pass through (mouth_contact.hpp). Streams have no contact.
+/// Contact: bodies that tissue may not pass through (mouth_contact.hpp). Streams have no contact.
 struct ContactOptions {
-  bool lips = false;   ///< the lips each other
-  bool teeth = false;  ///< the mouth's side of the tissue those of Simulator::set_obstacles()
-  bool eyes = false;   ///< the lids the eyeballs, likewise
+  bool lips = false;  ///< lips with each other
+  bool teeth =
+      false;          ///< the inner side of the tissue with the teeth of Simulator::set_obstacles()
+  bool eyes = false;  ///< the lids with its eyeballs
   bool any() const { return lips || teeth || eyes; }
-  /// Patches of skin that are carried to where points are recorded (DriveBy::displacement) give way
-  /// to contact as springs per area of this stiffness; without contact they end where they are
-  /// driven.
+  /// Patches of skin with prescribed motion (DriveBy::displacement) yield to contact like springs
+  /// of this stiffness per area. Without contact they follow their prescribed motion.
   double patch_pa_per_m = 2e8;
-  /// Where forces drive, driven points near the lips stay where the motion without contact has
-  /// them, except that they yield by this share of the tissue's own compliance: surfaces that touch
-  /// in a recording touched when it was recorded.
+  /// If forces drive: contact moves driven points near the lips only by this share of the tissue's
+  /// own compliance. The recording already contains the effect of contact on these points.
   double point_give = 0.5;
   bool operator==(const ContactOptions&) const = default;
 

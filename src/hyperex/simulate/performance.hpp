@@ -47,7 +47,7 @@ struct Performance {
   fem::Material material;                    ///< one value per tetrahedron
   ModelOptions model;                        ///< gives strain and stress from the displacement
 
-  /// Landmarks of the scan as the moved skin carries them, at the frame times.
+  /// Landmarks of the scan, which move with the skin, at the frame times.
   motion::Motion landmarks;
   /// Positions at rest of the driven points and of some held nodes, and the line of the lip cut
   /// (polyline; empty where none was made): for pictures.

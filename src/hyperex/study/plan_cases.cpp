@@ -33,8 +33,8 @@ class Sentences {
   std::string text_;
 };
 
-/// What session::check() depends on: not the stiffness of tissue and support, the solver or the
-/// outputs.
+/// The options on which session::check() depends: not the stiffness of tissue and support, the
+/// solver or the outputs.
 std::string looked_at(const scene::Scene& scene) {
   json options = scene::options_json(scene);
   for (const char* section : {"solver", "time", "output", "title"}) options.erase(section);

@@ -42,7 +42,7 @@ void refuse_unknown_names(StudyText& text) {
     text.complain(name, value.is_object() ? json() : value,
                   "one of " + fmt::format("{}", fmt::join(known, ", ")) +
                       (!near.empty() ? "; did you mean " + near + "?"
-                       : of_a_scene  ? "; keys of the scene stand under [set] or [grid]"
+                       : of_a_scene  ? "; keys of the scene belong under [set] or [grid]"
                                      : ""));
   }
 }

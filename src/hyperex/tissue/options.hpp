@@ -115,9 +115,9 @@ struct TissueRegion {
   }
 };
 
-/// What makes the tissue differ from place to place. A plain value: a variant is a changed copy.
+/// How the tissue varies in space. A plain value: a variant is a changed copy.
 struct TissueFieldOptions {
-  GivenParameters uniform{};  ///< where no point gives the parameter; none: preset or default
+  GivenParameters uniform{};  ///< where no point gives the parameter; not given: preset or default
   std::string preset;         ///< of tissue_presets(); empty: none
   Interpolation interpolation = Interpolation::harmonic;
   bool mirror = false;                ///< values for one side hold for the other too
@@ -165,7 +165,7 @@ struct TissueFieldOptions {
   }
 };
 
-/// Something wrong with one of the options: `key` is "preset", "point[1].side", "region[0].name".
+/// A problem with one of the options: `key` is "preset", "point[1].side", "region[0].name".
 struct FieldProblem {
   std::string key, expected;
   std::string value = {};  ///< the value given, in quotes; empty: not stated in the message

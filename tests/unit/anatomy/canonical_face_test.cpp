@@ -96,6 +96,18 @@ TEST(EmbeddedFace, IsFineOpenAndNearTheCanonicalFace) {
   EXPECT_LT(most, 0.006);  // corners of eyes, mouth and outline are rounded
 }
 
+TEST(EmbeddedFace, LiesInThePictureWhereTheCanonicalFaceDoes) {
+  const EmbeddedFace embedded = embedded_face();
+  const CanonicalFace& face = canonical_face();
+  ASSERT_EQ(embedded.uv.rows(), embedded.mesh.points.rows());
+  // The canonical vertices are the first of the fine mesh; a unit is some 235 mm.
+  const Eigen::VectorXf off = (embedded.uv.topRows(468) - face.uv).rowwise().norm();
+  EXPECT_LT(off.mean(), 0.001);
+  EXPECT_LT(off.maxCoeff(), 0.012) << "corners and outline are rounded";
+  EXPECT_GT(embedded.uv.minCoeff(), 0);
+  EXPECT_LT(embedded.uv.maxCoeff(), 1);
+}
+
 TEST(EmbeddedFace, LandmarksLieOnItsVerticesWhereTheCanonicalFaceHasThem) {
   const EmbeddedFace embedded = embedded_face();
   const CanonicalFace& face = canonical_face();

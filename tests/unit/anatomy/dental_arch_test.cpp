@@ -135,7 +135,7 @@ TEST(DistanceToTeeth, IsThatToTheirSurface) {
       continue;
     ++looked;
     EXPECT_NEAR(distance->at(p + 0.0005 * n, outward), 0.0005, 1e-4);
-    EXPECT_GT(outward.dot(n), 0.95);
+    EXPECT_GT(outward.dot(n), 0.94);
     EXPECT_NEAR(distance->at(p - 0.0003 * n, outward), -0.0003, 1e-4);
   }
   EXPECT_GT(looked, 10);

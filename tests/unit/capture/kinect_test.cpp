@@ -110,7 +110,7 @@ TEST_F(KinectTest, RegistersDepthToColour) {
   // Column 319 of the depth camera, seen by the colour camera 23 mm beside it.
   const double shift_px = 525 * 0.023 / metres(700);
   EXPECT_NEAR(edge, 319.5 + 525 * (319 - 319.5) / 575.8 + shift_px, 0.6);
-  EXPECT_GT(shift_px, 10) << "else this test tells nothing";
+  EXPECT_GT(shift_px, 10) << "else this test shows nothing";
 }
 
 TEST(KinectDepth, FollowsTheGeometryOfItsSensor) {

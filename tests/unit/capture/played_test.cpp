@@ -61,7 +61,7 @@ TEST_F(PlayedTest, ASlowConsumerLosesFramesAndNoTime) {
     std::this_thread::sleep_for(250ms);
   }
   EXPECT_EQ(expected, 10u) << "the newest is never dropped";
-  EXPECT_EQ(gaps, source->dropped()) << "numbers tell what is missing";
+  EXPECT_EQ(gaps, source->dropped()) << "numbers show what is missing";
   EXPECT_EQ(frames + gaps, 10u);
   EXPECT_GE(gaps, 4u);
 }

@@ -10,6 +10,8 @@
 
 #include <csignal>
 #include <fstream>
+#include <new>
+#include <string>
 
 #include "hyperex/core/error.hpp"
 #include "support/refusal.hpp"
@@ -81,6 +83,28 @@ TEST_F(Files, ReadingNamesWhatIsWrong) {
   EXPECT_THAT([&] { read_file(folder_); }, ThrowsMessage<InputError>(HasSubstr("is a folder")));
   put(folder_ / "empty", "");
   EXPECT_EQ(read_file(folder_ / "empty"), "");
+}
+
+TEST_F(Files, AreReadWholeOrNotAtAll) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "a sanitizer takes more addresses than any limit leaves";
+#endif
+  constexpr std::size_t size = std::size_t(1) << 30;
+  put(folder_ / "large", "");
+  fs::resize_file(folder_ / "large", size);  // takes no room on the disk
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  const rlimit tight{size, before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &tight), 0);
+  EXPECT_THROW(read_file(folder_ / "large"), std::bad_alloc);
+  ::setrlimit(RLIMIT_AS, &before);
+}
+
+TEST_F(Files, WhoseSizeIsNotStatedAreReadToTheEnd) {
+  std::ifstream stream("/proc/self/maps");
+  std::string line, last;
+  while (std::getline(stream, line)) last = line;
+  EXPECT_THAT(read_file("/proc/self/maps"), HasSubstr(last + "\n"));
 }
 
 TEST_F(Files, ALinkIsFollowedAndPermissionsAreKept) {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 
 class Interrupt : public testing::TestWithParam<int> {
  protected:
-  // The child that dies is the program started anew: it is told its parent's folder.
+  // The child that dies is the program started anew: it receives its parent's folder.
   static constexpr const char* kFolder = "HYPEREX_INTERRUPT_TEST";
 
   void SetUp() override {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/expression/weight_doubts.hpp"

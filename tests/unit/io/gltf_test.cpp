@@ -3,6 +3,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
+#include "hyperex/io/gltf_shapes.hpp"
 #include "hyperex/io/scan.hpp"
 #include "unit/io/io_testing.hpp"
 
@@ -181,7 +182,7 @@ TEST_F(Gltf, RefusesEachFaultWithOneLine) {
   });
   refused("there is no accessor 99",
           [](Document& d) { d.root["meshes"][0]["primitives"][0]["attributes"]["POSITION"] = 99; });
-  refused("hangs in the scene twice", [](Document& d) { d.root["nodes"][1]["children"] = {0}; });
+  refused("is in the scene twice", [](Document& d) { d.root["nodes"][1]["children"] = {0}; });
   refused("names mesh 5", [](Document& d) { d.root["nodes"][1]["mesh"] = 5; });
   refused("names node 7", [](Document& d) { d.root["nodes"][0]["children"] = {7}; });
   refused("KHR_draco_mesh_compression",
@@ -222,6 +223,82 @@ TEST_F(Gltf, FlippedBytesNeverCrash) {
   testing::read_flipped(bytes, {0xff, 0x80, 0x01, 0x04}, [&](const std::string& changed) {
     read_scan(write("flipped.glb", changed));
   });
+}
+
+/// The sheet's second half with two targets, one of them sparse, and a landmark.
+Document shaped(const TriMesh& mesh) {
+  Document d = document(mesh);
+  auto& moved = d.root["meshes"][0];
+  std::vector<float> dense(std::size_t(mesh.points.size()));
+  for (std::size_t i = 0; i < dense.size(); i += 3) dense[i] = 0.001f * float(i + 3);
+  const int all = d.accessor(dense, 5126, "VEC3", 3);
+  const int rows = d.view(std::string("\x01\x00\x04\x00", 4));
+  const float values[] = {0, 0.002f, 0, 0, 0, 0.003f};
+  const int listed = d.view({reinterpret_cast<const char*>(values), sizeof values});
+  d.root["accessors"].push_back({{"componentType", 5126},
+                                 {"count", mesh.points.rows()},
+                                 {"type", "VEC3"},
+                                 {"sparse",
+                                  {{"count", 2},
+                                   {"indices", {{"bufferView", rows}, {"componentType", 5123}}},
+                                   {"values", {{"bufferView", listed}}}}}});
+  const int few = all + 1;
+  moved["primitives"][1]["targets"] = {{{"POSITION", all}}, {{"POSITION", few}}};
+  moved["extras"] = {{"targetNames", {"jawOpen", "mouthLeft"}},
+                     {"landmarks_m", {{"pronasale", {0.5, 0.25, 0.125}}}}};
+  return d;
+}
+
+TEST_F(Gltf, ShapesOfARigSparseOnesToo) {
+  const TriMesh mesh = sheet(3);
+  const ShapedMesh rig = read_gltf_shapes(write("rig.glb", shaped(mesh).glb()));
+  EXPECT_EQ(rig.mesh.triangles.rows(), mesh.triangles.rows() / 2) << "the primitive with targets";
+  ASSERT_EQ(rig.shapes.size(), 2u);
+  EXPECT_EQ(rig.shapes[0].name, "jawOpen");
+  EXPECT_EQ(rig.shapes[1].name, "mouthLeft");
+  for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) {
+    // The node turns x to y and y to -x; a displacement is not shifted.
+    EXPECT_NEAR(rig.shapes[0].displacement_m(v, 1), 0.003 * double(v + 1), 1e-6) << v;
+    EXPECT_NEAR(rig.shapes[0].displacement_m(v, 0), 0, 1e-6) << v;
+    const Vec3 few = v == 1 ? Vec3(-0.002, 0, 0) : v == 4 ? Vec3(0, 0, 0.003) : Vec3(0, 0, 0);
+    EXPECT_LT((rig.shapes[1].displacement_m.row(v).cast<double>().transpose() - few).norm(), 1e-6)
+        << v;
+  }
+  ASSERT_EQ(rig.landmarks.size(), 1u);
+  EXPECT_LT((rig.landmarks.at("pronasale") - Vec3(1 - 0.25, 2 + 0.5, 3 + 0.125)).norm(), 1e-6);
+}
+
+TEST_F(Gltf, ShapesThatAreFaultyAreRefusedInOneLine) {
+  const auto refused = [&](const std::string& part, const auto& spoil) {
+    Document d = shaped(sheet(3));
+    spoil(d);
+    const auto file = write("bad.glb", d.glb());
+    expect_refused(file, part, [&] { read_gltf_shapes(file); });
+  };
+  const auto sparse = [](Document& d) -> json& { return d.root["accessors"].back(); };
+  refused("no mesh with named morph targets",
+          [](Document& d) { d.root["meshes"][0].erase("extras"); });
+  refused("has 3 items; expected 16", [&](Document& d) { sparse(d)["count"] = 3; });
+  refused("lists 17 of its 16 items", [&](Document& d) { sparse(d)["sparse"]["count"] = 17; });
+  refused("its buffer view is too short", [&](Document& d) { sparse(d)["sparse"]["count"] = 3; });
+  refused("lists item 516; expected 0 to 15", [&](Document& d) {
+    const std::size_t view = sparse(d)["sparse"]["indices"]["bufferView"];
+    d.buffer[std::size_t(d.root["bufferViews"][view]["byteOffset"]) + 3] = 2;
+  });
+  refused("there is no buffer view 99",
+          [&](Document& d) { sparse(d)["sparse"]["values"]["bufferView"] = 99; });
+  refused("jawOpen has a number that is not finite", [&](Document& d) {
+    const auto nan = std::numeric_limits<float>::quiet_NaN();
+    const std::size_t accessor = d.root["accessors"].size() - 2;
+    const std::size_t view = d.root["accessors"][accessor]["bufferView"];
+    std::memcpy(d.buffer.data() + std::size_t(d.root["bufferViews"][view]["byteOffset"]), &nan, 4);
+  });
+  refused("three numbers", [](Document& d) {
+    d.root["meshes"][0]["extras"]["landmarks_m"]["nose"] = {1, 2};
+  });
+  testing::read_flipped(
+      shaped(sheet(1)).glb(), {0xff, 0x80, 0x01},
+      [&](const std::string& changed) { read_gltf_shapes(write("flipped.glb", changed)); });
 }
 
 }  // namespace

@@ -94,13 +94,35 @@ TEST_F(Unzip, KeepsToItsLimitsWhateverTheHeadersSay) {
   EXPECT_THAT(unpacked(test::zip_of({{"bomb", zeros}}), small), HasSubstr("more than 1 MB"));
   Zipped lies{"bomb", zeros};
   lies.size = 10;
-  EXPECT_THAT(unpacked(test::zip_of({lies}), small), HasSubstr("more than 1 MB"));
-  EXPECT_THAT(unpacked(test::zip_of({lies})), HasSubstr("damaged"));
+  EXPECT_THAT(unpacked(test::zip_of({lies}), small), HasSubstr("damaged (longer than"));
+  EXPECT_THAT(unpacked(test::zip_of({lies})), HasSubstr("damaged (longer than"));
   const std::string half(std::size_t(600) << 10U, '\0');
   EXPECT_THAT(unpacked(test::zip_of({{"a", half}, {"b", half}}), small),
               HasSubstr("more than 1 MB"))
       << "together";
   EXPECT_THAT(unpacked(test::zip_of({{"a", ""}, {"b", ""}, {"c", ""}, {"d", ""}}), small),
+              HasSubstr("holds more than 3 files"));
+}
+
+/// What a zip states of itself is enough to refuse it: not a byte of these can be unpacked.
+TEST_F(Unzip, LooksAtTheDirectoryBeforeItUnpacks) {
+  constexpr int kNoSuchMethod = 77;
+  Zipped first{"d/first", "1"}, second{"second", "2"};
+  first.method = second.method = kNoSuchMethod;
+  const auto listed = [&](const std::vector<Zipped>& files, const UnzipLimits& limits = {}) {
+    std::ofstream(root_ / "a.zip", std::ios::binary) << test::zip_of(files);
+    return files_in_zip(root_ / "a.zip", limits);
+  };
+  EXPECT_EQ(listed({{"d/", "", false, 040755}, first, {"__MACOSX/x", "x"}, second}),
+            (std::vector<fs::path>{"d/first", "second"}));
+  EXPECT_TRUE(fs::is_empty(root_ / "in"));
+  second.size = std::int64_t(900) << 20U;
+  const UnzipLimits small{std::uint64_t(1) << 20U, 3};
+  EXPECT_THAT(unpacked(test::zip_of({first, second}), small), HasSubstr("more than 1 MB"));
+  EXPECT_THAT(unpacked(test::zip_of({first, {"../x", "x"}})), HasSubstr("leads elsewhere"));
+  EXPECT_THAT(unpacked(test::zip_of({first, {"link", "/etc", false, 0120777}})),
+              HasSubstr("is a link"));
+  EXPECT_THAT(unpacked(test::zip_of({first, {"b", ""}, {"c", ""}, {"d", ""}}), small),
               HasSubstr("holds more than 3 files"));
 }
 

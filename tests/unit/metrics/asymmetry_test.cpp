@@ -99,8 +99,8 @@ TEST(Asymmetry, ALipIsNotTakenForTheOther) {
     return pairs.vertices[v][size_t(k)] / 3;
   };
   EXPECT_EQ(sheet_of(counterparts(two, plane), 3), 0);
-  const Counterparts told = counterparts(two, plane, {1, 1, 1, -1, -1, -1});
-  for (size_t v = 0; v < 6; ++v) EXPECT_EQ(sheet_of(told, v), int(v / 3));
+  const Counterparts reported = counterparts(two, plane, {1, 1, 1, -1, -1, -1});
+  for (size_t v = 0; v < 6; ++v) EXPECT_EQ(sheet_of(reported, v), int(v / 3));
 }
 
 TEST(Asymmetry, WhatHasNoCounterpartIsNoNumber) {

@@ -8,6 +8,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "support/test_file.hpp"
 #include "unit/report/made_up_face.hpp"
 #include "unit/report/page_reader.hpp"
@@ -239,7 +240,9 @@ TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
   const std::string page = read_file(file);
   const json manifest = json::parse(element(page, "hyperex-manifest"));
   const auto bytes = from_base64(element(page, "hyperex-binary"));
-  ASSERT_EQ(manifest.at("teeth").size(), 4u);
+  ASSERT_EQ(manifest.at("teeth").size(), 5u);
+  EXPECT_EQ(manifest["teeth"][4].at("part"), "tongue");
+  EXPECT_EQ(manifest["teeth"][4].at("jaw"), "lower");
   const json& row = manifest["teeth"][2];
   EXPECT_EQ(row.at("jaw"), "lower");
   EXPECT_EQ(row.at("part"), "crowns");
@@ -270,6 +273,47 @@ TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
   ReportInput bad{torn, face.scan, modes, &face.symmetry};
   bad.teeth = &teeth;
   EXPECT_THROW(write_html_report(file, bad), std::invalid_argument);
+}
+
+TEST(HtmlReport, DescribesThePocketsThatHangOnTheSkin) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto teeth = testing::made_up_teeth();
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  input.teeth = &teeth;
+  const auto file = test_file("report_openings_test.html");
+  write_html_report(file, input);
+  const std::string page = read_file(file);
+  const json manifest = json::parse(element(page, "hyperex-manifest"));
+  const auto bytes = from_base64(element(page, "hyperex-binary"));
+  const auto openings = face_backing(face.performance, &teeth).openings;
+  ASSERT_EQ(manifest.at("openings").size(), openings.size());
+  for (std::size_t o = 0; o < openings.size(); ++o) {
+    const json& reported = manifest["openings"][o];
+    const Opening& opening = openings[o];
+    EXPECT_EQ(stretch<int>(bytes, reported.at("loop")), opening.loop);
+    const auto steps = stretch<std::int16_t>(bytes, reported.at("points").at("values"));
+    ASSERT_EQ(steps.size(), std::size_t(opening.rest.size()));
+    for (std::size_t i = 0; i < steps.size(); ++i)
+      EXPECT_NEAR(reported["middle"][i % 3].get<double>() +
+                      reported["points"]["step_m"].get<double>() * steps[i],
+                  opening.rest.data()[i], 2e-6);
+    ASSERT_EQ(reported.at("rings").size(), opening.rings.size());
+    for (std::size_t r = 0; r < opening.rings.size(); ++r) {
+      EXPECT_EQ(reported["rings"][r][0], opening.rings[r].edge);
+      EXPECT_EQ(reported["rings"][r][1], opening.rings[r].centre);
+      EXPECT_EQ(reported["rings"][r][2], opening.rings[r].jaw);
+    }
+    const auto jaw = stretch<float>(bytes, reported.at("jaw"));
+    EXPECT_LT((Eigen::Map<const Eigen::VectorXf>(jaw.data(), Eigen::Index(jaw.size())) -
+               opening.jaw.cast<float>())
+                  .norm(),
+              1e-6);
+    const auto colours = stretch<std::uint8_t>(bytes, reported.at("colours"));
+    ASSERT_EQ(colours.size(), 3 * opening.colours.size());
+    EXPECT_EQ(colours[4], opening.colours[1][1]);
+    EXPECT_EQ(colours.back(), opening.colours.back()[2]);
+  }
 }
 
 TEST(HtmlReport, CarriesPictureAndColours) {

@@ -14,6 +14,7 @@
 #include <numeric>
 
 #include "hyperex/anatomy/teeth/dental_arch.hpp"
+#include "hyperex/anatomy/teeth/tongue.hpp"
 
 namespace hyperex::report::testing {
 namespace {
@@ -202,6 +203,8 @@ anatomy::Teeth made_up_teeth() {
   for (anatomy::JawTeeth* jaw : {&teeth.upper, &teeth.lower})
     for (TriMesh* part : {&jaw->crowns, &jaw->gum})
       part->points.rowwise() += Eigen::RowVector3d(0, -0.037, 0.045);
+  teeth.tongue =
+      anatomy::tongue_in(teeth, {Vec3::Zero(), Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()});
   return teeth;
 }
 

@@ -7,6 +7,7 @@
 
 #include <set>
 
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
 
 namespace hyperex::rig {

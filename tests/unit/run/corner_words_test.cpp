@@ -66,6 +66,21 @@ TEST(CornerWords, RoundsOnceSoThatAdjacentFiguresAgree) {
   EXPECT_THAT(variant_lines(summary), HasSubstr("left 8.3 to 6.2 mm, follows 2.1 mm less"));
 }
 
+TEST(CornerWords, NamesTheLargestPartOfTheFloor) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("1.0 mm apart: more than the floor of 0.1 mm (mesh)"));
+  corners["jitter_floor_mm"] = 0.6;
+  corners["pose_floor_mm"] = 1.1;
+  corners["floor_mm"] = 1.26;
+  corners["undecided"] = true;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("undecided, below the floor of 1.3 mm (the head's pose)"));
+  corners["jitter_floor_mm"] = 1.2;
+  EXPECT_THAT(corners_line(summary), HasSubstr("(jitter)"));
+}
+
 TEST(CornerWords, AChangeWithinItsBandIsUndecided) {
   EXPECT_THAT(variant_lines(summary_of({6.7, 7.0, 7.0, 0.5}, same, {"R"})),
               HasSubstr("right 6.7 to 7.0 mm, undecided (+- 0.5)"));

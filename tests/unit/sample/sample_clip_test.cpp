@@ -107,7 +107,7 @@ TEST(SampleClip, IsTrackedWithinAMillimetre) {
   const tracking::Score score = tracking::score(model, tracked.frames, truth);
   EXPECT_EQ(score.lost, 0U);
   EXPECT_LT(score.deformation_mm.median, 0.75);
-  EXPECT_LT(score.deformation_mm.p95, 3.2);
+  EXPECT_LT(score.deformation_mm.p95, 3.6);
   EXPECT_LT(score.rotation_deg.p95, 1.1);
   EXPECT_LT(score.translation_mm.p95, 0.45);
   EXPECT_GT(score.jaw_correlation.value_or(0), 0.99);

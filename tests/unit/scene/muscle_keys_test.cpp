@@ -150,18 +150,18 @@ TEST(MuscleKeys, AMisspeltSectionIsNotTakenForAnother) {
 
 // A name in words gets the names that it may mean, and no truncated list, also in an inline table.
 TEST(MuscleKeys, ANameInWordsIsToldWithWhatItMeans) {
-  const auto told = [](const std::string& name) {
+  const auto reported = [](const std::string& name) {
     return only_muscle_problem(by_muscles + "[muscles]\ngain = { " + name + " = 0.4 }\n");
   };
   for (const char* name : {"right", "right_side", "sideR", "side_right", "Right"})
-    EXPECT_THAT(told(name), HasSubstr("did you mean side_R?")) << name;
-  EXPECT_THAT(told("side"), HasSubstr("did you mean side_R or side_L?"));
-  EXPECT_THAT(told("zygomatic"), HasSubstr("did you mean zygomatic_R or zygomatic_L?"));
-  EXPECT_THAT(told("left_zygomatic_branch"), HasSubstr("did you mean zygomatic_L?"));
-  EXPECT_THAT(told("frontalis"), HasSubstr("did you mean frontal_med_R or frontal_med_L or "));
-  EXPECT_THAT(told("zyg_major"), HasSubstr("did you mean zyg_major_R or zyg_major_L?"));
-  EXPECT_THAT(told("nobody"), HasSubstr("cervical_L; or a muscle, such as "));
-  EXPECT_THAT(told("nobody"), Not(HasSubstr("...")));
+    EXPECT_THAT(reported(name), HasSubstr("did you mean side_R?")) << name;
+  EXPECT_THAT(reported("side"), HasSubstr("did you mean side_R or side_L?"));
+  EXPECT_THAT(reported("zygomatic"), HasSubstr("did you mean zygomatic_R or zygomatic_L?"));
+  EXPECT_THAT(reported("left_zygomatic_branch"), HasSubstr("did you mean zygomatic_L?"));
+  EXPECT_THAT(reported("frontalis"), HasSubstr("did you mean frontal_med_R or frontal_med_L or "));
+  EXPECT_THAT(reported("zyg_major"), HasSubstr("did you mean zyg_major_R or zyg_major_L?"));
+  EXPECT_THAT(reported("nobody"), HasSubstr("cervical_L; or a muscle, such as "));
+  EXPECT_THAT(reported("nobody"), Not(HasSubstr("...")));
 }
 
 const std::string own_muscles =

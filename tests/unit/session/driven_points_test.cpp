@@ -111,7 +111,6 @@ TEST(DrivenPoints, OfManyThatMoveFourAreNamed) {
 
 TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
   scene::Scene scene;
-  scene.motion.rigid_points = {"head_1"};
   // A driven point under its other name, the slit between the lips, the skull, nostrils that a lip
   // carries along, and the vertices of a tracked mesh.
   motion::Motion m = with_moving({{"cheilion_L", 5},
@@ -124,6 +123,7 @@ TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
   const int first = m.index_of("vertex_0");
   m.triangles.resize(1, 3);
   m.triangles << first, first + 1, first + 2;
+  m.skull_points = {"head_1"};
   EXPECT_EQ(not_driven(scene, m), "");
   // A landmark that has two names is listed once.
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_30", 3}, {"pronasale", 3}})),
@@ -141,8 +141,9 @@ TEST(DrivenPoints, NamedOnesAreKept) {
 TEST(DrivenPoints, AllLeavesOutTheSkullAndTheSlit) {
   scene::Scene scene;
   scene.drive.all_points = true;
-  scene.motion.rigid_points = {"head_1"};
-  const auto all = points_of(scene, whole_face());
+  motion::Motion recorded = whole_face();
+  recorded.skull_points = {"head_1"};
+  const auto all = points_of(scene, recorded);
   EXPECT_EQ(all.size(), 68u);
   EXPECT_THAT(all, Not(Contains("stomion")));
   EXPECT_THAT(all, Not(Contains("head_1")));

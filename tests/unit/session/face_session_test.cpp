@@ -7,6 +7,9 @@
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/metrics/peak_tissue.hpp"
 #include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/scene/given_text.hpp"
@@ -61,6 +64,12 @@ double apart_mm(const FaceResult& a, const FaceResult& b) {
   return 1e3 * most;
 }
 
+std::vector<double> mesh_floors(const FaceResult& result) {
+  std::vector<double> out;
+  for (const auto& pair : result.measures().excursions.pairs) out.push_back(pair.mesh_floor_mm);
+  return out;
+}
+
 TEST(FaceSession, AsksWhatTheSameForcesDoInOtherTissue) {
   FaceSession face = session_of(kCoarse + kMuscles);
   const FaceResult before = face.run();
@@ -79,15 +88,16 @@ TEST(FaceSession, AsksWhatTheSameForcesDoInOtherTissue) {
 }
 
 TEST(FaceSession, ChangesPartsOfLists) {
-  FaceSession face = session_of(kCoarse + kMuscles);
+  FaceSession face =
+      session_of(kCoarse + "[[tissue.region]]\nname = \"chin\"\nyoung_factor = 3\n" + kMuscles);
   const FaceResult before = face.run();
-  face.set("tissue.region[0].young_factor", 20);
+  face.set("tissue.region[1].young_factor", 20);
   const FaceResult part = face.run();
   EXPECT_GT(apart_mm(before, part), 0.01);
-  expect_equal(
-      face.variant("whole", {{"tissue.region",
-                              Value::from_json(R"([{"name": "cheek_R", "young_factor": 20}])")}}),
-      part);
+  expect_equal(face.variant("whole", {{"tissue.region",
+                                       Value::from_json(R"([{"name": "cheek_R", "young_factor": 2},
+                                                       {"name": "chin", "young_factor": 20}])")}}),
+               part);
   EXPECT_THROW(face.set("tissue.region[3].young_factor", 2), InputError);
   EXPECT_THROW(face.set("tissue.region[0]young_factor", 2), InputError);
 }
@@ -123,6 +133,8 @@ TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
       "muscles.gain = { side_R = 0.5 }\n";
   FaceSession face = session_of(kCoarse + kMuscles + variants);
   face.run();
+  face.find_certainty();
+  face.skin_uncertainty();
   const std::string stiffer = kCoarse + "viscosity_factor = 2\n" + kMuscles + variants +
                               "[[variant]]\nname = \"third\"\nmotion.gain = 0.5\n";
   ASSERT_TRUE(face.set_scene(scene_of(stiffer)));
@@ -130,8 +142,23 @@ TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
   face.run();
   FaceSession fresh = session_of(stiffer);
   fresh.run();
+  for (FaceSession* each : {&face, &fresh}) {
+    EXPECT_FALSE(each->certainty_known());
+    each->find_certainty();
+  }
+  EXPECT_EQ(face.options(0), face.simulator().options())
+      << "the tissue's field is that of the scene";
   ASSERT_EQ(face.faces(), fresh.faces());
-  for (std::size_t f = 0; f < face.faces(); ++f) expect_equal(face.result(f), fresh.result(f));
+  for (std::size_t f = 0; f < face.faces(); ++f) {
+    expect_equal(face.result(f), fresh.result(f));
+    EXPECT_EQ(mesh_floors(face.result(f)), mesh_floors(fresh.result(f)));
+  }
+  EXPECT_EQ(metrics::json_of(face.tissue_at_peak()), metrics::json_of(fresh.tissue_at_peak()));
+  EXPECT_EQ(face.skin_uncertainty()->distance_mm, fresh.skin_uncertainty()->distance_mm);
+  std::vector<Note> notes = face.notes();
+  EXPECT_EQ(std::erase_if(notes, [](const Note& note) { return note.id == "forces.found_anew"; }),
+            1u);
+  EXPECT_EQ(notes, fresh.notes());
   // A variant alone changes: base and the others stay.
   ASSERT_TRUE(
       face.set_scene(scene_of(kCoarse + "viscosity_factor = 2\n" + kMuscles +
@@ -139,6 +166,62 @@ TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
   EXPECT_TRUE(face.base_up_to_date());
   EXPECT_FALSE(face.up_to_date());
   EXPECT_FALSE(face.set_scene(scene_of(stiffer + "\n[alignment]\nmethod = \"similarity\"\n")));
+}
+
+TEST(FaceSession, ContactSwitchedOnLaterIsThatOfAFreshSession) {
+  const anatomy::EmbeddedFace embedded = anatomy::embedded_face();
+  Face given;
+  given.scan.mesh = embedded.mesh;
+  given.landmarks = embedded.landmarks;
+  motion::Motion pressed = motion::embedded_mouth_opening(embedded.landmarks);
+  const Eigen::RowVector3d back = -face::face_frame(embedded.landmarks).z.transpose();
+  for (std::size_t k = 0; k < pressed.positions.size(); ++k) {
+    pressed.positions[k] = pressed.positions[0];
+    for (int lips = 48; lips < 68; ++lips)
+      if (const auto at = std::ranges::find(pressed.names, face::ibug(lips));
+          at != pressed.names.end())
+        pressed.positions[k].row(at - pressed.names.begin()) +=
+            5e-3 * std::min(1.0, double(k) / 20) * back;
+  }
+  const Changes coarse = {
+      {"mesh.element_size_mm", 10}, {"mesh.layers", 1}, {"time.frame_rate_hz", 5}};
+  FaceSession face(given, pressed, coarse, {.certainty = Certainty::on_request});
+  face.run();
+  EXPECT_EQ(face.obstacles(), nullptr);
+  face.set("contact.teeth", true);
+  ASSERT_NE(face.obstacles(), nullptr);
+  const FaceResult after = face.run();
+  EXPECT_GT(after.report().contact.frames, 0);
+  Changes all = coarse;
+  all.emplace("contact.teeth", true);
+  FaceSession fresh(given, pressed, all, {.certainty = Certainty::on_request});
+  expect_equal(after, fresh.run());
+}
+
+TEST(FaceSession, VariantsRespondToTheForcesOfAChangedBase) {
+  const std::string variant = kMuscles + "[[variant]]\nname = \"soft\"\ntissue.young_kpa = 60\n";
+  std::string stiffer = kCoarse;
+  stiffer.replace(stiffer.find("100"), 3, "150");
+  FaceSession face = session_of(kCoarse + variant);
+  face.run();
+  ASSERT_TRUE(face.set_scene(scene_of(stiffer + variant)));
+  face.run();
+  FaceSession fresh = session_of(stiffer + variant);
+  fresh.run();
+  expect_equal(face.result(1), fresh.result(1));
+}
+
+TEST(FaceSession, AtFiniteStrainVariantsHaveTheForcesOfTheRunOfBase) {
+  std::string finite = kCoarse + kMuscles + "[[variant]]\nname = \"soft\"\n";
+  finite.insert(finite.find("young_kpa"), "strain = \"finite\"\n");
+  const std::string now = finite + "tissue.young_kpa = 60\n";
+  FaceSession face = session_of(finite + "tissue.young_kpa = 80\n");
+  face.still(1, 0.1);  // makes the variant's simulator
+  ASSERT_TRUE(face.set_scene(scene_of(now)));
+  face.run();
+  FaceSession fresh = session_of(now);
+  fresh.run();
+  expect_equal(face.result(1), fresh.result(1));
 }
 
 TEST(FaceSession, ForgetsTheWarningsOfAVariantThatIsGone) {
@@ -165,7 +248,7 @@ TEST(FaceSession, KnowsWhatThePointsDoNotTellWhereShapesTakePart) {
   const auto value = [&](const char* region, const char* what) {
     return regions.at(region).at(what).get<double>();
   };
-  // Seven points of mouth and chin tell of the lips and hardly of the eyes.
+  // Seven points of mouth and chin determine the lips and hardly the eyes.
   EXPECT_GT(value("lips", "determined"), 0.8);
   EXPECT_LT(value("eyes", "determined"), 0.2);
   EXPECT_LT(value("lips", "distance_rms_mm"), value("cheeks", "distance_rms_mm") + 1);
@@ -189,11 +272,8 @@ TEST(FaceSession, KnowsItsBandsWithTheRunOrOnRequest) {
   at_once.find_certainty();  // the search for landmarks
   EXPECT_TRUE(at_once.certainty_known());
   for (std::size_t f = 0; f < 2; ++f) {
-    const auto one = at_once.result(f), other = later.result(f);
-    ASSERT_EQ(one.measures().excursions.pairs.size(), other.measures().excursions.pairs.size());
-    for (std::size_t i = 0; i < one.measures().excursions.pairs.size(); ++i)
-      EXPECT_EQ(one.measures().excursions.pairs[i].mesh_floor_mm,
-                other.measures().excursions.pairs[i].mesh_floor_mm);
+    ASSERT_THAT(mesh_floors(at_once.result(f)), testing::Not(testing::IsEmpty()));
+    EXPECT_EQ(mesh_floors(at_once.result(f)), mesh_floors(later.result(f)));
   }
 }
 

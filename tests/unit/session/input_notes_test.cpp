@@ -49,11 +49,22 @@ TEST_F(InputNotes, KnowSlowRecordingsFromMilliseconds) {
   open(0, 16, [](motion::Motion& m) {
     for (double& t : m.time_s) t *= 14;
   });
-  EXPECT_THAT(warnings(), IsEmpty());
+  EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.coarse")));
   open(0, 16, [](motion::Motion& m) {
     for (double& t : m.time_s) t *= 16;
   });
   EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.time_unit_doubtful")));
+}
+
+TEST_F(InputNotes, SamplesATenthOfASecondApartAreCloseEnough) {
+  open(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 3;
+  });
+  EXPECT_THAT(warnings(), IsEmpty());
+  open(0, 16, [](motion::Motion& m) {
+    for (double& t : m.time_s) t *= 3.2;
+  });
+  EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.coarse")));
 }
 
 TEST_F(InputNotes, TakeTwoTenthsOfAMillimetreForMotion) {

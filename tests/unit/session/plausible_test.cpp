@@ -67,7 +67,7 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
     return motion::stabilise(motion::read_motion(kData / file)).motion;
   };
   const FaceAtRest average = average_face();
-  const auto start = [&](const motion::Motion& m) { return start_warning(m, average); };
+  const auto start = [&](const motion::Motion& m) { return start_warning(m, average, false); };
   const auto smile = read("real/spacetime/smile_mm.csv"),
              opening = read("rgbd/subject_A_mouth_open/truth_landmarks68_camera_m.csv"),
              talk = read("rgbd/subject_A_talk/truth_landmarks68_camera_m.csv");
@@ -75,6 +75,7 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
   for (const auto& late : {backwards(smile), cut(opening, 40)})
     EXPECT_THAT(start(late), Optional(AllOf(is_warning("recording.starts_in_expression"),
                                             is_about("motion.rest_s"), says("an average face"))));
+  EXPECT_EQ(start_warning(backwards(smile), average, true), std::nullopt) << "weights know rest";
   for (auto exchanged : {smile, opening, talk}) {
     EXPECT_NO_THROW(check_sides(exchanged, average));
     for (Points& sample : exchanged.positions) sample.col(0) *= -1;

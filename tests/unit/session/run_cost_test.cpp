@@ -29,6 +29,34 @@ TEST(RunCost, OfTheScanAloneIsThatOfItsMeshRoughly) {
   EXPECT_NEAR(before->memory_bytes / after->memory_bytes, 1, 0.3);
 }
 
+/// Nodes and memory as measured with runs (output.vtu where the scene says so), without meshing.
+TEST(RunCost, IsCloseToWhatWasMeasured) {
+  struct Measured {
+    double element_mm, nodes, memory_gb;
+  };
+  const auto compare = [](const std::string& name, scene::Scene scene,
+                          const std::vector<Measured>& measured) {
+    Inputs inputs = read_inputs(scene);
+    for (const Measured& run : measured) {
+      scene.mesh.element_size_m = 1e-3 * run.element_mm;
+      const auto cost = expected_cost(scene, inputs, Extent::full);
+      ASSERT_TRUE(cost);
+      EXPECT_NEAR(cost->nodes / run.nodes, 1, 0.05) << name << ", " << run.element_mm << " mm";
+      EXPECT_NEAR(cost->memory_bytes / (1e9 * run.memory_gb), 1, 0.15)
+          << name << ", " << run.element_mm << " mm";
+    }
+  };
+  compare("embedded", embedded(), {{5, 2169, 0.283}, {3.3, 5022, 0.621}, {2.2, 11175, 1.359}});
+  const std::filesystem::path shared = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
+  if (!std::filesystem::exists(shared)) GTEST_SKIP() << "two faces of three are not here";
+  scene::Scene rig = embedded();
+  rig.scan.source = {.file = shared / "ict/subject_A_neutral_scan.ply"};
+  rig.scan.landmarks = shared / "ict/subject_A_landmarks.json";
+  compare("subject A", rig, {{5, 2781, 0.433}, {3.3, 6396, 0.820}, {2.2, 14412, 1.998}});
+  compare("real smile", scene::read_scene(shared / "real/spacetime/smile_7.toml", {}),
+          {{5, 2658, 0.343}, {3.3, 6075, 0.753}, {2.2, 13566, 1.689}});
+}
+
 TEST(RunCost, GrowsWithWhatARunWrites) {
   scene::Scene scene = embedded();
   const Inputs inputs = read_inputs(scene);
@@ -110,16 +138,35 @@ TEST(RunCost, AboveTheBoundIsRefusedByTheKeyThatRaisesIt) {
   cost.disk_bytes = 3.1e9;
   cost.frames_bytes = 3e9;
   EXPECT_THAT(
-      test::refusal([&] { check_disk(scene, cost); }),
+      test::refusal([&] { check_cost(scene, cost); }),
       testing::AllOf(testing::HasSubstr("output.most_gb"), testing::HasSubstr("3.8 or more"),
                      testing::HasSubstr("3.00 GB for ParaView")));
   scene.motion.arkit = "weights.csv";
   const Note doubt = make_warning("recording.time_unit_doubtful", "milliseconds?", "motion.arkit");
-  EXPECT_THAT(test::refusal([&] { check_disk(scene, cost, {doubt}); }),
+  EXPECT_THAT(test::refusal([&] { check_cost(scene, cost, {doubt}); }),
               testing::HasSubstr("motion.arkit = \"weights.csv\": expected times in seconds "
                                  "(milliseconds?); where they are, output.most_gb = 3.8 or more"));
   scene.output.most_gb = 3.8;
-  EXPECT_NO_THROW(check_disk(scene, cost));
+  EXPECT_NO_THROW(check_cost(scene, cost));
+}
+
+TEST(RunCost, OfMemoryIsBoundedToo) {
+  scene::Scene scene = embedded();
+  scene.mesh.element_size_m = 0.0005;
+  scene.output.vtu = false;
+  const Inputs inputs = read_inputs(scene);
+  EXPECT_THAT(
+      test::refusal([&] { checked_cost(scene, inputs, Extent::full); }),
+      testing::ContainsRegex("output.most_memory_gb = 8.0: expected [0-9.]+ or more, as the "
+                             "run would take about [0-9]+ GB of memory \\(for a mesh of "
+                             "[0-9]+ nodes; a larger mesh.element_size_mm needs fewer"));
+  scene.output.most_memory_gb = 100;
+  EXPECT_NO_THROW(checked_cost(scene, inputs, Extent::full));
+  scene.mesh.element_size_m = 0.006;
+  scene.output.most_memory_gb = 1;
+  scene.time.frame_rate_hz = 5000;
+  EXPECT_THAT(test::refusal([&] { checked_cost(scene, inputs, Extent::full); }),
+              testing::HasSubstr("time.start_s and time.end_s shorten it"));
 }
 
 }  // namespace

@@ -76,13 +76,13 @@ TEST_P(WildFiles, AreRefusedRepairedOrWarnedOf) {
     return;
   }
   // Where the first reading is wild, it is the way back that no face goes.
-  const std::string told = place(file.first > 0 ? file.first : file.count);
+  const std::string reported = place(file.first > 0 ? file.first : file.count);
   if (file.off_mm >= 300) {
     const std::string said = test::refusal([&] { read(true); });
-    EXPECT_THAT(said, HasSubstr(told));
+    EXPECT_THAT(said, HasSubstr(reported));
     EXPECT_EQ(std::ranges::count(said, '\n'), 0) << said;
   } else {
-    EXPECT_THAT(read(true).notes, Contains(AllOf(is_warning("recording.jumps"), says(told))));
+    EXPECT_THAT(read(true).notes, Contains(AllOf(is_warning("recording.jumps"), says(reported))));
   }
 }
 

@@ -35,14 +35,14 @@ TEST(MuscleGains, NameAMuscleABranchOrASide) {
 }
 
 TEST(MuscleGains, AnUnknownNameIsToldWithThoseThereAre) {
-  const std::map<std::string, std::string> told = {
+  const std::map<std::string, std::string> reported = {
       {"zyg_major", "did you mean zyg_major_R or zyg_major_L?"},
       {"zygomatic", "did you mean zygomatic_R or zygomatic_L?"},
       {"zyg_major_l", "did you mean zyg_major_L?"},
       {"side", "did you mean side_R or side_L?"},
       {"", "one of side_R, side_L, zygomatic_R"},
       {"temporal_L", "is no muscle"}};
-  for (const auto& [name, expected] : told)
+  for (const auto& [name, expected] : reported)
     EXPECT_THAT(hyperex::test::refusal([&, name = name] {
                   gains({{name, 1}});
                 }),

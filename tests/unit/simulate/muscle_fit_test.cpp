@@ -192,13 +192,13 @@ TEST_F(FitOfPoints, BothSidesAreExpectedToActAlikeUnlessPointsTellThemApart) {
     MuscleFit fit({ways, no_jaw, {}}, jaw_, priors, sigma_m, {0, 0}, {0, right_is_ring});
     return fit.fit(0.5 * way);
   };
-  const FitResult told = found(left_alone, 0.002, 0);
-  EXPECT_NEAR(told.activation[1], 0.6 * told.activation[0], 1e-12);
-  EXPECT_NEAR(std::sqrt(told.covariance(1, 1) - 0.36 * told.covariance(0, 0)), 0.3 * 0.8, 1e-12)
+  const FitResult alone = found(left_alone, 0.002, 0);
+  EXPECT_NEAR(alone.activation[1], 0.6 * alone.activation[0], 1e-12);
+  EXPECT_NEAR(std::sqrt(alone.covariance(1, 1) - 0.36 * alone.covariance(0, 0)), 0.3 * 0.8, 1e-12)
       << "and the rest of it stays open";
   const double of_points = way.squaredNorm() / (0.002 * 0.002);
-  EXPECT_NEAR(told.activation[0], 0.5 * of_points / (of_points + 1 / 0.09), 1e-12)
-      << "what is told of the left side alone is as without the right";
+  EXPECT_NEAR(alone.activation[0], 0.5 * of_points / (of_points + 1 / 0.09), 1e-12)
+      << "the left side is fitted as it would be without the right";
   const FitResult ring = found(left_alone, 0.002, 1);
   EXPECT_NEAR(ring.activation[1], 0.6 * 0.5 * ring.activation[0], 1e-12) << "by their sigmas";
   const FitResult apart = found(both, 1e-6, 0);
@@ -283,7 +283,7 @@ TEST_F(FitOfPoints, SigmaIsWhatTheFitIsWrongBy) {
   const Eigen::VectorXd wrong = (squares / kDraws).cwiseSqrt();
   for (int m = 0; m < kMuscles; ++m) {
     EXPECT_NEAR(sigma[m] / wrong[m], 1, 0.1) << m;
-    EXPECT_LT(sigma[m], 0.95 * 0.2) << "the points tell something";
+    EXPECT_LT(sigma[m], 0.95 * 0.2) << "the points carry information";
     EXPECT_GT(sigma[m], 0.02) << "and not all";
   }
 }

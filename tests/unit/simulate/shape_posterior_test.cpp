@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What driven points tell of other places, against the inverse of the joint covariance.
+// The posterior at other places, compared with the inverse of the joint covariance.
 #include "hyperex/simulate/load/shape_posterior.hpp"
 
 #include <gtest/gtest.h>

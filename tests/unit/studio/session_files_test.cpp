@@ -33,6 +33,18 @@ TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
   EXPECT_THAT(opened({{"../../scene.toml", "1"}, {"rgb.txt", ""}}), HasSubstr("leads elsewhere"));
   EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply"));
   EXPECT_FALSE(fs::exists(folder_.path() / "own" / "scene.toml"));
+  // The contents of these archives are damaged. A message about them can only come from the
+  // directory of the zip.
+  hyperex::test::Zipped bomb{"talk/rgb.txt", "0 rgb/0.png\n"},
+      beside{"talk/camera.toml", "width = 1\n"};
+  bomb.method = 77;
+  bomb.size = std::int64_t(1) << 30U;
+  EXPECT_THAT(opened({bomb, beside}), HasSubstr("unpacks to more than 16 MB"));
+  bomb.size = -1;
+  EXPECT_THAT(opened({bomb}), HasSubstr("rec.zip/talk/camera.toml: missing"));
+  bomb.name = "talk/pictures.bin";
+  EXPECT_THAT(opened({bomb, beside}), HasSubstr("holds no recording"));
+  EXPECT_THAT(names(), testing::UnorderedElementsAre("me.ply"));
   const std::string lists = "0 rgb/0.png\n",
                     camera = "width = 64\nheight = 48\nfx = 60\nfy = 60\ncx = 31.5\ncy = 23.5\n";
   EXPECT_THAT(opened({{"talk/rgb.txt", lists}, {"talk/camera.toml", camera}}), HasSubstr("me.ply"))

@@ -217,8 +217,8 @@ TEST_F(StudioSession, WhatAFirstVariantNeedsIsMadeAheadAndChangesNoNumber) {
     EXPECT_EQ(event("scene")->head["drive"], "muscles");
     peak_s_ = 0.5;
     set({{"tissue.young_kpa", 300}}, 1, true);
-    const bool told = event("progress") && event("shape");
-    EXPECT_NE(told, ahead) << "said only where it takes long";
+    const bool reported = event("progress") && event("shape");
+    EXPECT_NE(reported, ahead) << "said only where it takes long";
     return event("shape") ? event("shape")->block : "";
   };
   const std::string made_then = first_shape(false);

@@ -151,7 +151,7 @@ INSTANTIATE_TEST_SUITE_P(
               "mean grid?"},
         Fault{"KeyOutside", "tissue.young_kpa = 5\n[grid]\nsupport.skull = [\"held\"]\n",
               "study.toml:2: tissue: expected one of title, scene, out, set, grid, cases; keys of "
-              "the scene stand under [set] or [grid]"},
+              "the scene belong under [set] or [grid]"},
         Fault{"Torn", "[grid\n",
               "study.toml:2: expected sound TOML (Error while parsing table header: expected ']', "
               "saw '\\n')"},

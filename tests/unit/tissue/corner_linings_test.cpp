@@ -38,7 +38,13 @@ TriMesh with_linings(const EmbeddedFace& face) {
 }
 
 TEST(CornerLinings, AFaceWithoutThemKeepsAll) {
-  const EmbeddedFace face = embedded_face();
+  // With parted lips, as rims that lie on each other are such linings.
+  EmbeddedFace face = embedded_face();
+  const std::vector<double> margin = upper_lip_margin(face.mesh, face.landmarks);
+  const double middle = face.landmarks.at("stomion").y();
+  for (Eigen::Index v = 0; v < face.mesh.points.rows(); ++v)
+    if (margin[std::size_t(v)] <= 0 && face.mesh.points(v, 1) < middle)
+      face.mesh.points(v, 1) -= 0.004;
   TriMesh mesh = face.mesh;
   EXPECT_EQ(remove_corner_linings(mesh, face.landmarks), 0);
   EXPECT_EQ(mesh.points, face.mesh.points);

@@ -350,7 +350,7 @@ TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
   }
   colours.setConstant(255);
   io::write_ply(ply, scan, io::LengthUnit::metre, {}, colours);
-  // Told where the files are read, before anything is simulated.
+  // Reported where the files are read, before anything is simulated.
   EXPECT_THAT(refusal(options), HasSubstr("nothing is painted red"));
   EXPECT_THROW(notes_on_files(options, scan), InputError);
   io::write_ply(ply, scan, io::LengthUnit::metre, {});

@@ -105,7 +105,7 @@ TEST(VertexMatch, RefusesAnotherMeshWithCountAndDistance) {
   own.points.row(0).x() += 0.004;
   const std::string said = test::refusal([&] { VertexMatch("own.ply", own, scan); });
   EXPECT_THAT(said, HasSubstr("own.ply: 1 of the scan's"));
-  EXPECT_THAT(said, HasSubstr("vertex 0, counted from 0, is 1.1 mm from the nearest"));
+  EXPECT_THAT(said, HasSubstr("vertex 0, counted from 0, is 1.2 mm from the nearest"));
 }
 
 class VertexFiles : public testing::Test {

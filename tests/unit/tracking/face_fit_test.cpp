@@ -169,17 +169,17 @@ TEST(SurfacePatch, MeetsATiltedPlaneAndLeavesOutWhatIsFar) {
 }
 
 /// A truth of five frames, and the same motion in another head frame.
-struct Told {
+struct TruthAndTrack {
   Truth truth;
   std::vector<TrackedFrame> tracked;
 };
 
-Told told(double error_m) {
+TruthAndTrack truth_and_track(double error_m) {
   const expression::FaceModel& model = expression::canonical_model();
   Eigen::Isometry3d face_from_head = Eigen::Isometry3d::Identity();
   face_from_head.rotate(Eigen::AngleAxisd(0.3, Vec3::UnitX()));
   face_from_head.translation() = Vec3(0.01, -0.02, 0.03);
-  Told made;
+  TruthAndTrack made;
   for (int k = 0; k < 5; ++k) {
     TrackedFrame frame;
     frame.time_s = k / 30.0;
@@ -207,7 +207,7 @@ Told told(double error_m) {
 }
 
 TEST(Score, IsZeroForTheSameMotionInAnotherFrame) {
-  const Told same = told(0);
+  const TruthAndTrack same = truth_and_track(0);
   const Score score = tracking::score(expression::canonical_model(), same.tracked, same.truth);
   EXPECT_EQ(score.frames, 5u);
   EXPECT_EQ(score.lost, 0u);
@@ -219,7 +219,7 @@ TEST(Score, IsZeroForTheSameMotionInAnotherFrame) {
 }
 
 TEST(Score, TellsErrorsAndLostFrames) {
-  Told off = told(0.002);
+  TruthAndTrack off = truth_and_track(0.002);
   off.tracked[3].valid = false;
   off.tracked[2].camera_from_head.translation().x() += 0.005;
   const Score score = tracking::score(expression::canonical_model(), off.tracked, off.truth);

@@ -102,13 +102,13 @@ TEST(TrackLive, EndsWhenItIsToldTo) {
 
   capture::LatestFrame again = camera(100000);
   LiveOptions until_asked;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   until_asked.status = [&](const LiveStatus& status) {
-    ++told;
-    EXPECT_EQ(status.held_back + status.frames, told) << "nothing queues up beside these";
+    ++reported;
+    EXPECT_EQ(status.held_back + status.frames, reported) << "nothing queues up beside these";
     EXPECT_LT(status.held_back, 4u);
   };
-  until_asked.stop = [&] { return told == 3; };  // while frames are held back
+  until_asked.stop = [&] { return reported == 3; };  // while frames are held back
   const LiveTracking short_one =
       track_live(again, expression::canonical_model(), quick(), until_asked);
   EXPECT_EQ(short_one.tracking.frames.size(), 3u) << "what was held back is given";
@@ -120,14 +120,14 @@ TEST(TrackLive, WithoutAFaceNothingIsHeldBack) {
   capture::LatestFrame source(
       std::make_unique<Camera>(cv::Mat(320, 320, CV_8UC3, cv::Scalar(90, 90, 90)), 12));
   LiveOptions options;
-  std::size_t told = 0;
+  std::size_t reported = 0;
   options.status = [&](const LiveStatus& status) {
-    ++told;
+    ++reported;
     EXPECT_EQ(status.held_back, 0u);
     EXPECT_EQ(status.valid, 0u);
   };
   EXPECT_THROW(track_live(source, expression::canonical_model(), quick(), options), InputError);
-  EXPECT_GT(told, 0u);
+  EXPECT_GT(reported, 0u);
 }
 
 }  // namespace

@@ -4,9 +4,13 @@ import uPlot from 'uplot';
 import 'uplot/dist/uPlot.min.css';
 import './charts.css';
 import { csvOf, pictureOf } from './chart_export';
-import { chartOptions, type Chart } from './chart_options';
+import { chartOptions, type Chart, type Size } from './chart_options';
 import { button, element } from '../page/dom';
+import { printing } from '../page/printing';
 import { fileName, save, saveButton, subject } from '../page/save';
+
+/** On paper a chart is drawn larger and shrunk by the style sheet (charts.css), so that its lines are fine. */
+const paper = { scale: 3, shrunk: 0.3, heightPx: 150 };
 
 /** One chart in its card. It is made again when its curves or the colours of the page change. */
 export class TimeChart {
@@ -103,18 +107,24 @@ export class TimeChart {
 
   /** Fits the chart to its card. */
   resize(): void {
-    const width = this.host.clientWidth;
-    if (!this.plot || width === 0 || width === this.plot.width) return;
-    this.plot.setSize({ width, height: this.plot.height });
+    const { widthPx } = this.size;
+    if (!this.plot || this.host.clientWidth === 0 || widthPx === this.plot.width) return;
+    this.plot.setSize({ width: widthPx, height: this.plot.height });
   }
 
   private get heightPx(): number {
     return this.chart.heightPx ?? 190;
   }
 
+  private get size(): Size {
+    const widthPx = Math.max(this.host.clientWidth, 200);
+    if (!printing) return { widthPx, heightPx: this.heightPx, scale: 1 };
+    const { scale, shrunk, heightPx } = paper;
+    return { widthPx: Math.floor(widthPx / shrunk), heightPx: Math.round(heightPx / shrunk), scale };
+  }
+
   private options(): uPlot.Options {
-    const size = { widthPx: Math.max(this.host.clientWidth, 200), heightPx: this.heightPx, scale: 1 };
-    const options = chartOptions(this.chart, size, this.hidden);
+    const options = chartOptions(this.chart, this.size, this.hidden);
     options.hooks!.draw!.push(() => queueMicrotask(() => this.afterDrawing()));
     options.hooks!.setSeries = [(plot) => this.remember(plot)];
     return options;

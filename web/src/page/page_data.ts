@@ -37,8 +37,8 @@ export const blockOf = (binary: ArrayBuffer, start = 0): Block => ({
 });
 
 function textOf(id: string): string {
-  const text = document.getElementById(id)?.textContent;
-  if (!text) throw new Error(`This page holds no data (${id} is missing): it is only a template.`);
+  const text = document.getElementById(id)?.textContent ?? null;
+  if (text === null) throw new Error(`This page holds no data (${id} is missing): it is only a template.`);
   return text;
 }
 

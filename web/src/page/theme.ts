@@ -1,14 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page's colours as canvases need them: resolved, light or dark.
 import { colours } from './face_colour';
+import { printing } from './printing';
 
 export const dark = window.matchMedia('(prefers-color-scheme: dark)');
-
-/** In print the colours are the light ones, whatever the screen shows. */
-let printing = false;
-export function setPrinting(on: boolean): void {
-  printing = on;
-}
 
 export interface Theme {
   ink: string;
@@ -26,6 +21,7 @@ export function theme(): Theme {
   const of = (name: string) => style.getPropertyValue(name).trim();
   return {
     ink: of('--ink'), inkSoft: of('--ink-soft'), line: of('--line'), card: of('--card'), shading: of('--shading'),
+    // Paper is light, whatever the screen shows.
     palette: colours(dark.matches && !printing),
   };
 }

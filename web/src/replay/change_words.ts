@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a variant changes, in words: {"tissue.young_kpa": 1000} is "Young's modulus 1,000 instead of 192.4 kPa".
+// What a variant changes, in words: {"tissue.young_kpa": 1000} is "stiffness 1,000 instead of 192.4 kPa".
 import { landmarkName, nameAndUnit, number, upper, words } from '../page/format';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
 
 const parameters: Record<string, string> = {
-  young: 'Young’s modulus', viscosity: 'viscosity', poisson: 'Poisson’s ratio', density: 'density',
+  young: 'stiffness', viscosity: 'viscosity', poisson: 'Poisson’s ratio', density: 'density',
 };
 
 function valueWords(value: unknown): string {
@@ -17,7 +17,7 @@ function valueWords(value: unknown): string {
   return typeof value === 'string' ? landmarkName(value) : JSON.stringify(value);
 }
 
-/** The last part of a key, with its unit. "young_kpa" is "Young's modulus" in "kPa". */
+/** The last part of a key, with its unit. "young_kpa" is "stiffness" in "kPa". */
 function keyWords(key: string): { name: string; unit: string } {
   const { name, unit } = nameAndUnit(key);
   return { name: parameters[name] ?? name, unit };
@@ -25,7 +25,7 @@ function keyWords(key: string): { name: string; unit: string } {
 
 const withUnit = (text: string, unit: string): string => (unit ? `${text} ${unit}` : text);
 
-/** One change of one part of the face: {"name": "cheek_R", "young_factor": 10} is "cheek R: Young's modulus × 10". */
+/** One change of one part of the face: {"name": "cheek_R", "young_factor": 10} is "cheek R: stiffness × 10". */
 function placeWords(entry: Json): string {
   const { name, landmark, point, side, scar, painted, ...rest } = entry;
   const place = Array.isArray(scar) && scar.length > 0

@@ -67,7 +67,7 @@ function digitsApart(aMm: number, exactMm: number, bMm: number): number {
   return [1, 2, 3].find(agrees) ?? 3;
 }
 
-/** A length and what it is held against, "0.07 mm" and "0.14 mm": with as many decimals as tell them apart. */
+/** A length and what it is held against, "0.07 mm" and "0.14 mm": with as many decimals as distinguish them. */
 export function heldAgainst(shownMm: number, exactMm: number, limitMm: number): { own: string; limit: string } {
   const digits = digitsApart(shownMm, exactMm, limitMm);
   const own = digits === 1 ? shownMm : exactMm;
@@ -91,7 +91,7 @@ export function changeBandMm(replay: Replay, face: number, side: Side): number |
   return isNumber(band) ? band : null;
 }
 
-/** What a variant does to a corner of the mouth. */
+/** The effect of a variant on a corner of the mouth. */
 export interface CornerChange {
   side: Side;
   /** Greatest distances from rest in base and in the variant, as they are shown. */

@@ -60,6 +60,19 @@ export interface Muscles {
   lines: { name: string; latin: string; points: Vec3[] }[];
 }
 
+/** A hole of the skin. */
+export interface Opening {
+  loop: Int32Array;
+  /** At rest: the edge, the rings behind it, and a point. */
+  rest: Float32Array;
+  /** Of each ring behind the edge, and of the point: shares of the motion of edge, its middle and the jaw. */
+  rings: [number, number, number][];
+  /** Per vertex of the loop: its share of the jaw's motion. */
+  jaw: Float32Array;
+  /** sRGB per point. */
+  colours: Uint8Array;
+}
+
 export interface Replay {
   title: string;
   notes: string[];
@@ -68,6 +81,10 @@ export interface Replay {
   points: Float32Array;
   triangles: Int32Array;
   colour: Uint8Array | null;
+  /** Ambient occlusion at rest, one byte per vertex. */
+  light: Uint8Array;
+  /** Opacity of the skin, one byte per vertex: 0 at the border of the scan. */
+  fade: Uint8Array;
   texture: { image: Blob; uv: Float32Array; skinVertex: Int32Array; triangles: Int32Array } | null;
   timeS: number[];
   peakFrame: number;
@@ -83,11 +100,21 @@ export interface Replay {
   /** Where each vertex's mirror image lies on the skin at rest: three vertices each, -1 where it has none, and
    *  their weights of about 255 in all. */
   mirror: { normal: Vec3; vertices: Int32Array; weights: Uint8Array } | null;
-  /** Holes of the skin: vertices around each, and the way into the head. */
-  openings: { loop: Int32Array; inward: Vec3; depthM: number; rings: [number, number][] }[];
-  eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number }[];
+  /** Holes of the skin: vertices around each, and the pocket attached to them. */
+  openings: Opening[];
+  /** `light`: a byte for each vertex of the model. */
+  eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number; light: Uint8Array }[];
+  /** Of radius 1, looking along +z; three bytes of colour a vertex. */
+  eyeModel: { points: Float32Array; triangles: Uint32Array; colours: Uint8Array } | null;
   /** At rest. */
-  teeth: { jaw: 'upper' | 'lower'; part: 'crowns' | 'gum'; points: Float32Array; triangles: Uint32Array; light: Uint8Array }[];
+  teeth: {
+    jaw: 'upper' | 'lower';
+    part: 'crowns' | 'gum' | 'tongue';
+    colour: Vec3;
+    points: Float32Array;
+    triangles: Uint32Array;
+    light: Uint8Array;
+  }[];
   muscles: Muscles | null;
   /** How far base is expected to be from the true face; null where that is not known. */
   uncertainty: SkinMap | null;
@@ -113,16 +140,29 @@ const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles =
   lines,
 });
 
-function teethOf(row: NonNullable<Manifest['teeth']>[number], block: Block): Replay['teeth'][number] {
-  const { jaw, part, middle, points } = row;
-  const corners = row.triangles.type === 'int16' ? block.int16(row.triangles) : block.int32(row.triangles);
+const stillPoints = ({ middle, points }: { middle: Vec3; points: ModeData }, block: Block): Float32Array =>
+  Float32Array.from(stepsOf(points.values, block), (step, i) => middle[i % 3] + points.step_m * step);
+
+/** A mesh that does not change its shape. */
+const rigidOf = (mesh: { middle: Vec3; points: ModeData; triangles: Stretch }, block: Block) => ({
+  points: stillPoints(mesh, block),
+  triangles: new Uint32Array(mesh.triangles.type === 'int16' ? block.int16(mesh.triangles) : block.int32(mesh.triangles)),
+});
+
+function openingOf(opening: Manifest['openings'][number], block: Block): Opening {
+  const { int32, float32, uint8 } = block;
   return {
-    jaw,
-    part,
-    points: Float32Array.from(stepsOf(points.values, block), (step, i) => middle[i % 3] + points.step_m * step),
-    triangles: new Uint32Array(corners),
-    light: block.uint8(row.light),
+    loop: int32(opening.loop),
+    rest: stillPoints(opening, block),
+    rings: opening.rings,
+    jaw: float32(opening.jaw),
+    colours: uint8(opening.colours),
   };
+}
+
+function teethOf(row: NonNullable<Manifest['teeth']>[number], block: Block): Replay['teeth'][number] {
+  const { jaw, part, colour } = row;
+  return { jaw, part, colour, ...rigidOf(row, block), light: block.uint8(row.light) };
 }
 
 function facesOf(manifest: MovingManifest, block: Block): Face[] {
@@ -160,10 +200,10 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
 }
 
 /** The fixed part of a replay: the skin at rest. */
-type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs' | 'teeth';
+type StillPart = 'scanVertices' | 'points' | 'triangles' | 'colour' | 'texture' | 'mirror' | 'openings' | 'eyeballs' | 'eyeModel' | 'light' | 'fade' | 'teeth';
 export type Moving = Omit<Replay, StillPart>;
 /** What a manifest must have for `movingOf`. */
-export type MovingManifest = Omit<Manifest, 'version' | 'scan_vertices' | 'skin' | 'mirror' | 'openings' | 'eyeballs' | 'teeth'>;
+export type MovingManifest = Omit<Manifest, 'version' | 'scan_vertices' | 'skin' | 'mirror' | 'openings' | 'eyeballs' | 'eye_model' | 'teeth'>;
 
 function stillOf(manifest: Manifest, block: Block): Pick<Replay, StillPart> {
   const { float32, int32, uint8 } = block;
@@ -188,8 +228,11 @@ function stillOf(manifest: Manifest, block: Block): Pick<Replay, StillPart> {
           weights: uint8(manifest.mirror.weights),
         }
       : null,
-    openings: manifest.openings.map(({ loop, inward, depth_m, rings }) => ({ loop: int32(loop), inward, depthM: depth_m, rings })),
-    eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m }) => ({ centre, gaze, radiusM: radius_m })),
+    openings: manifest.openings.map((opening) => openingOf(opening, block)),
+    eyeballs: manifest.eyeballs.map(({ centre, gaze, radius_m, light }) => ({ centre, gaze, radiusM: radius_m, light: uint8(light) })),
+    eyeModel: manifest.eye_model ? { ...rigidOf(manifest.eye_model, block), colours: uint8(manifest.eye_model.colours) } : null,
+    light: uint8(skin.light),
+    fade: uint8(skin.fade),
     teeth: (manifest.teeth ?? []).map((row) => teethOf(row, block)),
   };
 }

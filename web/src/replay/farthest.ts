@@ -7,7 +7,7 @@ import { landmarkName } from '../page/format';
 import { isNumber } from './tables/figure_table';
 import type { VariantRow } from './variants';
 
-/** Until the next motion, which makes other faces. */
+/** Valid until the next motion, for which the faces are made anew. */
 const known = new WeakMap<Face, number>();
 
 /** The vertex that is farthest from base in the frame where the face differs most. */
@@ -40,8 +40,8 @@ export function placeWords(replay: Replay, i: number, row: VariantRow | undefine
 
 const isCorner = (name: unknown): boolean => typeof name === 'string' && /^(cheilion_[LR]|ibug68_(48|54))$/.test(name);
 
-/** Where and when the skin differs most, and how far that vertex moves at the peak: a sentence each. A reader must not
- *  take the last for the figures of the corner that the vertex lies near. */
+/** Where and when the skin differs most, and how far that vertex moves at the peak: one sentence each. The last one
+ *  must not be mistaken for the figures of the nearby corner of the mouth. */
 export function farthestSentences(replay: Replay, i: number, row: VariantRow): string[] {
   const place = placeWords(replay, i, row);
   const { displacement_there_mm: here, base_displacement_there_mm: there, farthest_near: near } = row;

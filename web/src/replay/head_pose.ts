@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How uncertain the pose of the head is, which no ± of the corners' figures holds.
+// How uncertain the pose of the head is, which the limit of "undecided" includes.
 import { cornersOf, mm, sameMm } from './corners';
 import type { Replay } from './data';
 import { isNumber } from './tables/figure_table';
@@ -10,8 +10,7 @@ export interface HeadPose {
   turnDeg: number;
 }
 
-/** Null where it is not known, or smaller than the floor of the corners' difference: then it changes nothing that is
- *  not undecided anyway (src/hyperex/run/corner_words.cpp, head_clause). */
+/** Null where it is not known, or smaller than the floor of the corners' difference: then other errors are larger. */
 export function headUncertainty(replay: Replay): HeadPose | null {
   const { head_shift_uncertainty_mm: shiftMm, head_turn_uncertainty_deg: turnDeg } = replay.summary;
   if (!isNumber(shiftMm) || !isNumber(turnDeg) || shiftMm < sameMm) return null;
@@ -22,8 +21,8 @@ const atMost = ({ shiftMm, turnDeg }: HeadPose): string => `up to ${mm(shiftMm)}
 
 /** Below the figures. */
 export const headWords = (pose: HeadPose): string =>
-  `The head’s pose is uncertain by ${atMost(pose)}. Neither a ± nor the limit of “undecided” includes this: a turn or a shift to one side also separates the corners.`;
+  `The head’s pose is uncertain by ${atMost(pose)}. The limit of “undecided” includes this. The ± of a change does not need to, since both runs share the pose.`;
 
 /** In a picture, where there is less room. */
 export const headCaption = (pose: HeadPose): string =>
-  `Head’s pose uncertain by ${atMost(pose)}; no ± includes this.`;
+  `Head’s pose uncertain by ${atMost(pose)}; “undecided” includes this.`;

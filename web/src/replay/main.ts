@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Ties the parts together: data, clock, stage, plots, and the keyboard.
 import '../page/style.css';
+import './report.css';
 import type { Replay } from './data';
 import { pageSource } from './data_source';
 import { frameAt } from './face/deform';
@@ -9,6 +10,7 @@ import { number } from '../page/format';
 import { wireKeys } from './keys';
 import { Playback } from './playback';
 import { Plots } from './curves/plots';
+import { wirePrinting } from './printing';
 import { Shown } from './shown';
 import { Stage } from './face/stage';
 import { transportKeys, wireTransport } from './transport';
@@ -52,6 +54,7 @@ function start(): void {
   const stage = new Stage(replay, shown);
   const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
   fillTables(replay, shown, at('tables'));
+  wirePrinting(stage, plots, at('canvas-host').closest('main')!);
   const showTransport = wireTransport(source, playback, shown);
   const show = () => {
     stage.moveTo(frameAt(timeS, playback.timeS), playback);
@@ -60,8 +63,8 @@ function start(): void {
   };
   const keys = [...transportKeys(source, playback, shown), ...stage.keys()];
   wireKeys(keys, at<HTMLDialogElement>('help'), at<HTMLButtonElement>('open-help'), at<HTMLInputElement>('keys-on'));
-  // Without animation, the peak shows most.
-  const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+  // Where nothing moves, the peak shows most.
+  const still = !stage.playsByItself;
   if (still) playback.seek(timeS[replay.peakFrame] ?? 0);
   playback.onChange(show);
   shown.onChange(showTransport);

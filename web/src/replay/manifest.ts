@@ -83,6 +83,10 @@ export interface Manifest {
     triangles: Stretch;
     /** RGBA, sRGB, per vertex. */
     colour?: Stretch;
+    /** Ambient occlusion at rest: the share of light that reaches each vertex, one byte. */
+    light: Stretch;
+    /** Opacity of the skin at each vertex, one byte: 0 at the border of the scan, 255 from 12 mm on. */
+    fade: Stretch;
     /** Vertices split at the picture's seams: each view vertex names its vertex of `points`. */
     texture?: { mime_type: string; image: Stretch; uv: Stretch; skin_vertex: Stretch; triangles: Stretch };
   };
@@ -109,19 +113,29 @@ export interface Manifest {
   mirror?: { normal: [number, number, number]; vertices: Stretch; weights: Stretch };
   /** Plain names of points. */
   point_words: Record<string, string>;
-  /** Holes of the skin, with the way into the head; what is put behind them hangs on their edge. */
+  /** Holes of the skin, and the pockets behind them: rings and a point, attached to the edge. Points at rest
+   *  (middle + step_m * values) begin with the edge. */
   openings: {
     loop: Stretch;
-    inward: [number, number, number];
-    depth_m: number;
-    /** Two, as shares: of the depth, and of the edge's width. */
-    rings: [number, number][];
+    middle: [number, number, number];
+    points: ModeData;
+    /** Of each ring behind the edge, and of the point: shares of the motion of the edge's vertex before it, of the
+     *  edge's middle, and of the jaw. */
+    rings: [number, number, number][];
+    /** Per vertex of the loop: its share of the jaw's motion; the point takes a half. */
+    jaw: Stretch;
+    /** sRGB, three bytes per point. */
+    colours: Stretch;
   }[];
-  eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number }[];
-  /** Teeth and gums at rest: points are middle + step_m * values. */
+  eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number; light: Stretch }[];
+  /** Of radius 1, looking along +z; three bytes of colour a vertex. Where there are eyeballs. */
+  eye_model?: { middle: [number, number, number]; points: ModeData; triangles: Stretch; colours: Stretch };
+  /** Teeth, gums and tongue at rest: points are middle + step_m * values. */
   teeth?: {
     jaw: 'upper' | 'lower';
-    part: 'crowns' | 'gum';
+    part: 'crowns' | 'gum' | 'tongue';
+    /** sRGB, bytes. */
+    colour: [number, number, number];
     middle: [number, number, number];
     points: ModeData;
     triangles: Stretch;

@@ -156,8 +156,8 @@ function table(caption: string, rows: Row[]): HTMLElement {
 const optionsOf = (section: string, values: Json): Row[] =>
   rowsOf(values, new Set()).map((row) => ({ ...row, key: `options.${section}.${row.key}` }));
 
-function folded(title: string, tables: HTMLElement[]): HTMLElement {
-  const details = element('details', '', 'all-figures');
+function folded(title: string, tables: HTMLElement[], name = ''): HTMLElement {
+  const details = element('details', '', `all-figures ${name}`.trim());
   const box = element('div', '', 'table-cards');
   box.append(...tables);
   details.append(element('summary', title), box);
@@ -219,5 +219,5 @@ export function fillSummary(summary: Json, into: HTMLElement): void {
   const single = Object.fromEntries(sections.filter(([, value]) => !isObject(value)));
   const tables = sections.flatMap(([key, value]) => (isObject(value) ? [table(nameAndUnit(key).name, optionsOf(key, value))] : []));
   if (Object.keys(single).length > 0) tables.unshift(table('scene', rowsOf(single, new Set())));
-  into.append(folded('Options of the scene', tables));
+  into.append(folded('Options of the scene', tables, 'options'));
 }

@@ -22,6 +22,15 @@ function gainName(name: string, muscles: MuscleInfo[]): string {
   return lower(words.ofSide(latin ?? words.branchNames[stem] ?? stem.replaceAll('_', ' '), sideName));
 }
 
+/** The same in a sentence: "zygomatic_R" is "right zygomatic branch". */
+function gainPhrase(name: string, muscles: MuscleInfo[]): string {
+  const [, stem, side] = /^(\w+)_([LR])$/.exec(name) ?? [null, name, ''];
+  const latin = muscles.find((muscle) => muscle.name === stem)?.latin;
+  const branch = !latin && words.branchNames[stem];
+  if (!side || (!latin && !branch)) return gainName(name, muscles);
+  return words.sideFirst(lower(latin ?? words.weakerBranch(branch || stem)), words.sideNames[side as 'L' | 'R']);
+}
+
 /** A part of the face whose tissue differs. */
 function regionName(row: Record<string, unknown>): string {
   const [, stem, side] = /^(\w+?)(?:_([LR]))?$/.exec(String(row.name ?? '')) ?? [null, '', ''];
@@ -33,23 +42,39 @@ function regionName(row: Record<string, unknown>): string {
   return [lower(place), factor === undefined ? '' : times(factor)].filter(Boolean).join(' ');
 }
 
-function parts(key: string, value: unknown, base: unknown, muscles: MuscleInfo[]): string[] {
+/** One change of a face: a part of its name, and of the question that it asks. */
+export interface NamedChange {
+  key: string;
+  text: string;
+  /** For a change of muscles.gain: the key of the side, branch or muscle whose strength changed, as "side_R". */
+  gain?: string;
+  /** The same in plain words. */
+  of?: string;
+  /** Of tissue.region: its place in the list. */
+  row?: number;
+}
+
+function changesOfKey(key: string, value: unknown, base: unknown, muscles: MuscleInfo[]): NamedChange[] {
   if (value === null || value === undefined || JSON.stringify(value) === JSON.stringify(base)) return [];
   if (key === 'muscles.gain' && isRecord(value))
     return Object.entries(value)
       .filter(([name, gain]) => gain !== (isRecord(base) ? (base[name] ?? 1) : 1))
-      .map(([name, gain]) => `${gainName(name, muscles)} ${percent(gain)}`);
-  if (key === 'tissue.region' && Array.isArray(value)) return value.filter(isRecord).map(regionName);
-  if (key === 'motion.gain') return [`${lower(words.keyNames[key])} ${percent(value)}`];
-  if (typeof value === 'object') return [key.replace(/^.*\./, '').replaceAll('_', ' ')];
+      .map(([gain, share]) => ({ key, gain, of: gainPhrase(gain, muscles), text: `${gainName(gain, muscles)} ${percent(share)}` }));
+  if (key === 'tissue.region' && Array.isArray(value)) return value.filter(isRecord).map((one, row) => ({ key, row, text: regionName(one) }));
+  if (key === 'motion.gain') return [{ key, text: `${lower(words.keyNames[key])} ${percent(value)}` }];
+  if (typeof value === 'object') return [{ key, text: key.replace(/^.*\./, '').replaceAll('_', ' ') }];
   const unit = words.nameUnits[key] ?? '';
   const shown = typeof value === 'number' ? String(Number(value.toPrecision(4))) : String(value);
-  return [[words.briefNames[key] ?? key.replace(/^.*\./, '').replaceAll('_', ' '), shown, unit].filter(Boolean).join(' ')];
+  return [{ key, text: [words.briefNames[key] ?? key.replace(/^.*\./, '').replaceAll('_', ' '), shown, unit].filter(Boolean).join(' ') }];
 }
+
+/** The changes of a face, one by one. */
+export const namedChanges = (changes: Values, base: Values, muscles: MuscleInfo[]): NamedChange[] =>
+  Object.entries(changes).flatMap(([key, value]) => changesOfKey(key, value, base[key], muscles));
 
 /** Contains only characters allowed in a face's name; empty where nothing is changed. */
 export function briefName(changes: Values, base: Values, muscles: MuscleInfo[]): string {
-  const all = Object.entries(changes).flatMap(([key, value]) => parts(key, value, base[key], muscles));
+  const all = namedChanges(changes, base, muscles).map(({ text }) => text);
   const more = all.length - mostParts;
   const name = [...all.slice(0, mostParts), ...(more > 0 ? [words.nameMore(more)] : [])].join('; ');
   return name.normalize('NFD').replace(/[^A-Za-z0-9 \-_.,;:+=%&'()[\]]/g, '').slice(0, longest).trim();

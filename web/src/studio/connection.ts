@@ -13,8 +13,8 @@ export type Received<K extends EventName> = Events[K] & { block: Block };
 /** The server refused a request; the message is a sentence for the user. */
 export class Refused extends Error {}
 
-/** "open": hello was answered. "lost": tried again until it is back. "refused": not this page's server, or not its
- *  token. "taken": another page has the server now. */
+/** "open": the server has answered hello. "lost": the connection is being tried again. "refused": another server, or a
+ *  wrong token. "taken": another page is connected to the server. */
 export interface LineState {
   state: 'opening' | 'open' | 'lost' | 'refused' | 'taken';
 }

@@ -5,7 +5,7 @@ import { TimeChart } from '../charts/time_chart';
 import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { sides, type Side } from '../page/side_words';
-import { apartAgainstFloor, bandWords, changeBandMm, cornerChange, cornersOf, farthestMm, heldAgainst, mm, sameMm, valueAt, type CornerChange, type Corners } from '../replay/corners';
+import { apartAgainstFloor, changeBandMm, cornerChange, cornersOf, farthestMm, mm, sameMm, valueAt, type Corners } from '../replay/corners';
 import { cornerCurves } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
 import { disagreement, plainFigures } from '../replay/curves/symmetry_words';
@@ -16,12 +16,11 @@ import { headUncertainty, headWords } from '../replay/head_pose';
 import { isNumber } from '../replay/tables/figure_table';
 import { variantsOf } from '../replay/variants';
 import { dark } from '../page/theme';
+import type { Answer } from './answer';
+import { changeLine } from './change_line';
 import { remarksOf, sentenceOf } from './remarks';
 import type { StudioState } from './studio_state';
 import { words } from './words';
-
-/** Until error bands are known, changes below this are shown as uncertain, mm. */
-const unsureMm = 0.5;
 
 /** Remarks on the inputs of the figures. */
 const restOn = /^(landmarks|recording|sides|skin|head|symmetry|forces)\./;
@@ -37,7 +36,7 @@ export class FiguresPanel {
   private live: { face: number; mm: Record<Side, number> } | null = null;
   private cornerVertex: Record<Side, number> | null = null;
 
-  constructor(private readonly state: StudioState, into: HTMLElement) {
+  constructor(private readonly state: StudioState, into: HTMLElement, private readonly answer: Answer) {
     this.doubts.setAttribute('aria-label', words.doubts);
     into.append(this.table, this.remark, this.doubts, this.charts);
     state.shown.onChange(() => this.change());
@@ -84,6 +83,7 @@ export class FiguresPanel {
   /** At the time shown. */
   mark(): void {
     const { timeS } = this.state.playback;
+    this.answer.mark(this.live);
     for (const { chart } of this.plots) chart.mark(timeS);
     for (const { cells, corners, face } of this.now)
       for (const side of sides) {
@@ -122,6 +122,7 @@ export class FiguresPanel {
       if (next) chart.change(next);
     }
     this.tellRemark();
+    this.answer.show(this.corners, this.doubts.children.length);
     this.mark();
   }
 
@@ -188,25 +189,10 @@ export class FiguresPanel {
     cell.append(element('b', mm(change?.toMm ?? most)));
     cell.dataset.side = side;
     cell.dataset.mm = String(most);
-    if (change) cell.append(this.against(change));
+    if (change) cell.append(changeLine(change));
     const now = element('small', '', 'now-is');
     cell.append(now);
     return now;
-  }
-
-  private against(change: CornerChange): HTMLElement {
-    const { byMm, exactMm, bandMm, sameWay, weaker, undecided } = change;
-    const sure = bandMm === null ? Math.abs(byMm) >= unsureMm : !undecided;
-    const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
-    const text = words.againstBase(by, byMm > 0);
-    const how = !sameWay ? words.alongBase : sure && weaker && byMm > 0 ? words.dragged : '';
-    const parts = byMm === 0 ? [words.asBase]
-      : [bandMm !== null && !sure ? words.undecidedChange(text) : text, bandMm === null ? '' : words.band(bandWords(change)), how].filter(Boolean);
-    const small = element('small', '', byMm !== 0 && sure ? 'change' : 'same');
-    // A line breaks between the parts, not inside of them.
-    parts.forEach((part, i) => small.append(...(i > 0 ? [' '] : []), element('span', part)));
-    if (bandMm !== null) small.title = words.bandHint;
-    return small;
   }
 
   private bandsKnown(): boolean {

@@ -13,7 +13,9 @@ import { Stage } from '../replay/face/stage';
 import { wireKeys, type Key } from '../replay/keys';
 import type { Manifest } from '../replay/manifest';
 import { transportKeys, wireTransport } from '../replay/transport';
+import { Answer } from './answer';
 import { Connection, takeToken, type LineState } from './connection';
+import { Drawer } from './drawer';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
@@ -25,6 +27,7 @@ import { OpenPanel } from './open_panel';
 import { PaintPanel } from './paint_panel';
 import { Panels } from './panels';
 import { Progress } from './progress';
+import { Question } from './question';
 import { RemarkPlaces } from './remark_places';
 import { remarksOf } from './remarks';
 import { SaveMenu } from './save_menu';
@@ -33,6 +36,7 @@ import { nested, StudioState } from './studio_state';
 import { Tabs } from './tabs';
 import { TissuePanel } from './tissue_panel';
 import { ViewVideo } from './video';
+import { WhatIf } from './what_if';
 import { fillWords, words } from './words';
 
 class Studio {
@@ -43,15 +47,14 @@ class Studio {
   private readonly tissue = new TissuePanel(this.state, this.edits);
   private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
   private readonly scene = new ScenePanel(this.state, this.edits);
-  private readonly figures = new FiguresPanel(this.state, at('figures-body'));
-  private readonly tabs = new Tabs(this.state, this.connection, this.edits, (gain) => {
-    this.panels.show('muscles');
-    this.muscles.reveal(gain);
-  });
-  private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'));
+  private readonly answer = new Answer(this.state, at('answer-body'), () => this.panels.show('figures'));
+  private readonly figures = new FiguresPanel(this.state, at('figures-body'), this.answer);
+  private readonly drawer = new Drawer();
+  private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain));
+  private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'), () => this.drawer.openFiles());
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
-  private readonly messages = new MessagesPanel(at('messages-panel'));
+  private readonly messages = new MessagesPanel(at('messages-panel'), at('open-messages'), at('message-news'));
   private readonly progress = new Progress(at('progress'));
   private readonly saving = new SaveMenu(this.state, this.connection, (text) => this.messages.add('note', text));
   private readonly remarks: RemarkPlaces;
@@ -63,12 +66,15 @@ class Studio {
   private readonly showTransport = wireTransport(this.state.source, this.state.playback, this.state.shown);
 
   constructor() {
-    this.panels = new Panels(this.state, [
+    this.panels = new Panels([
       { key: 'muscles', title: words.muscles, element: this.muscles.element },
       { key: 'tissue', title: words.tissue, element: this.tissue.element },
       { key: 'paint', title: words.paint, element: this.paint.element, seen: (now) => this.paint.seen(now) },
+      { key: 'figures', title: words.figures, element: at('figures-holder') },
       { key: 'scene', title: words.scene, element: this.scene.element },
     ]);
+    new Tabs(this.state, this.connection, this.edits);
+    new Question(this.state, this.edits, this.whatIf, at('question-body'), (key) => this.panels.show(key));
     this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));
     this.wireBar();
     this.wireServer();
@@ -157,7 +163,7 @@ class Studio {
   private compareTexts(): void {
     const current = this.movedText === (this.state.scene?.text ?? null);
     document.documentElement.dataset.current = String(current);
-    at('figures').classList.toggle('stale', !current);
+    for (const id of ['figures', 'answer']) at(id).classList.toggle('stale', !current);
   }
 
   /** Base's part of a report's summary, from which the variants differ. */
@@ -168,7 +174,7 @@ class Studio {
   private greeted({ program, keys, presets, tissues, regions, places }: Greeting): void {
     this.state.regions = regions;
     this.state.keys = new Map(keys.map((key) => [key.name, key]));
-    this.tabs.presets = presets;
+    this.whatIf.presets = presets;
     this.saving.folder = places.folder;
     at('title').title = program;
     this.tissue.build();
@@ -195,7 +201,7 @@ class Studio {
     this.muscles.build();
     this.figures.build();
     this.rewireKeys();
-    const still = window.matchMedia('(prefers-reduced-motion: reduce)').matches;
+    const still = !this.stage.playsByItself;
     if (still) playback.seek(replay.timeS[replay.peakFrame] ?? 0);
     this.showTime();
     document.documentElement.dataset.ready = 'true';
@@ -235,7 +241,7 @@ class Studio {
     const never = { when: () => false, act: () => {} };
     const keys: Key[] = [
       ...transportKeys(this.state.source, this.state.playback, this.state.shown), ...(this.stage?.keys() ?? []),
-      { shown: 'n', does: words.keyWhatIf, when: ['n'], act: () => this.tabs.whatIf.open() },
+      { shown: 'n', does: words.keyWhatIf, when: ['n'], act: () => this.whatIf.menu.open() },
       { shown: 'Ctrl+Z', does: words.keyUndo, ...never },
       { shown: 'Ctrl+Shift+Z', does: words.keyRedo, ...never },
       { shown: 'Ctrl+S', does: words.keySave, ...never },

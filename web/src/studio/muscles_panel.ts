@@ -3,6 +3,7 @@
 // face while its slider is dragged.
 import { button, element } from '../page/dom';
 import { upper } from '../page/format';
+import { rememberFold } from '../page/remember';
 import { ActivationCurves } from './activation_curves';
 import type { Edits } from './edits';
 import { isRecord, type MuscleInfo } from './messages';
@@ -72,11 +73,11 @@ export class MusclesPanel implements RemarkPanel {
     this.note.textContent = words.noMuscles;
     this.note.hidden = true;
     this.element.append(this.note, this.head());
-    this.element.append(this.row(words.wholeSide, 'side', muscles, { palsy: true }));
+    this.element.append(this.row(words.wholeSide, 'side', muscles));
     const branches = [...new Set(muscles.map(({ branch }) => branch))];
     this.element.append(this.group(words.branches, true,
       branches.map((branch) => this.row(
-        words.branchNames[branch] ?? upper(branch), branch, muscles.filter((muscle) => muscle.branch === branch), { palsy: true }))));
+        words.branchNames[branch] ?? upper(branch), branch, muscles.filter((muscle) => muscle.branch === branch)))));
     for (const name of [...new Set(muscles.map(({ group }) => group))]) {
       const own = muscles.filter(({ group }) => group === name);
       this.element.append(this.group(upper(name), false, own.map((muscle) =>
@@ -105,7 +106,10 @@ export class MusclesPanel implements RemarkPanel {
     if (!handle) return;
     const group = handle.row.closest('details');
     if (group) group.open = true;
-    handle.row.scrollIntoView({ block: 'center' });
+    // Within the panel: the page itself stays where it is.
+    const panel = this.element.parentElement!;
+    const [row, around] = [handle.row.getBoundingClientRect(), panel.getBoundingClientRect()];
+    panel.scrollTop += row.top + row.height / 2 - around.top - around.height / 2;
   }
 
   private head(): HTMLElement {
@@ -119,11 +123,12 @@ export class MusclesPanel implements RemarkPanel {
     const details = element('details', '', 'muscle-group');
     details.open = open;
     details.append(element('summary', title), ...rows);
+    rememberFold(details, `muscles.${title}`);
     return details;
   }
 
   /** Both sides of what gains may name; `moves`: the muscles that it moves. */
-  private row(title: string, name: string, moves: MuscleInfo[], { mute = false, palsy = false }): HTMLElement {
+  private row(title: string, name: string, moves: MuscleInfo[], { mute = false } = {}): HTMLElement {
     const row = element('div', '', 'strength');
     const groupId = `muscle-${name}`;
     row.setAttribute('role', 'group');
@@ -134,13 +139,13 @@ export class MusclesPanel implements RemarkPanel {
     const head = element('div', '', 'strength-title');
     head.append(label);
     row.append(head);
-    for (const side of sides) row.append(this.side(title, `${name}_${side}`, side, moves, row, head, { mute, palsy }));
+    for (const side of sides) row.append(this.side(title, `${name}_${side}`, side, moves, row, head, mute));
     return row;
   }
 
   /** Its slider; its switches are put into `head`. */
   private side(
-    title: string, name: string, side: Side, moves: MuscleInfo[], row: HTMLElement, head: HTMLElement, { mute = false, palsy = false },
+    title: string, name: string, side: Side, moves: MuscleInfo[], row: HTMLElement, head: HTMLElement, mute: boolean,
   ): HTMLElement {
     const spoken = words.ofSide(title, words.sideNames[side]);
     const slider = new Slider({
@@ -168,7 +173,7 @@ export class MusclesPanel implements RemarkPanel {
       head.append(made);
       return made;
     };
-    if (mute || palsy) handle.mute = toggle(palsy ? words.palsyShort : words.mute, palsy ? `${words.palsy}: ${spoken}` : words.muteHint(spoken), () => this.mute(name));
+    if (mute) handle.mute = toggle(words.mute, words.muteHint(spoken), () => this.mute(name));
     if (mute) handle.solo = toggle(words.solo, words.soloHint(spoken), () => this.solo(name));
     box.addEventListener('pointerenter', lit);
     box.addEventListener('pointerleave', dark);

@@ -17,7 +17,8 @@ export class OpenPanel {
   private readonly picker = element('input');
   private readonly rescue = element('div', '', 'rescue');
 
-  constructor(private readonly state: StudioState, private readonly connection: Connection, private readonly into: HTMLElement) {
+  /** `show`: brings the panel into view, for a problem. */
+  constructor(private readonly state: StudioState, private readonly connection: Connection, into: HTMLElement, private readonly show: () => void) {
     this.problem.setAttribute('role', 'alert');
     this.problem.hidden = true;
     this.rescue.hidden = true;
@@ -28,7 +29,8 @@ export class OpenPanel {
       this.picker.value = '';
     });
     const drop = element('p', words.drop, 'drop');
-    into.append(this.now, this.rescue, this.choices, this.problem, drop, this.picker);
+    into.append(this.now, this.choices, this.problem, drop, this.picker);
+    at('banner').after(this.rescue);
     state.sceneChanged.add(() => (this.now.textContent = this.called()));
     // Called for the next face, or for the same one opened again.
     state.source.onChange(() => {
@@ -100,7 +102,7 @@ export class OpenPanel {
   private showOpening(what: string | null): void {
     this.answered = false;
     document.documentElement.toggleAttribute('data-opening', what !== null);
-    at('figures').setAttribute('aria-busy', String(what !== null));
+    for (const id of ['figures', 'answer']) at(id).setAttribute('aria-busy', String(what !== null));
     at('opening').textContent = what === null ? '' : words.openingNow(what);
     at('opening').hidden = what === null;
   }
@@ -147,23 +149,37 @@ export class OpenPanel {
   private report(problem: string): void {
     this.problem.textContent = problem;
     this.problem.hidden = problem === '';
+    if (problem) this.show();
     if (this.places && !this.state.scene) this.now.textContent = problem ? '' : words.opening;
   }
 
-  /** Anywhere on the page. */
+  /** Anywhere on the page; what may be dropped, and where it goes, stands over the window meanwhile. */
   private wireDrop(): void {
-    const { into } = this;
-    const over = (on: boolean) => into.classList.toggle('drop-here', on);
+    const over = at('drop-over');
+    const ends = () => {
+      over.hidden = true;
+      over.textContent = '';
+    };
     document.addEventListener('dragover', (event) => {
       if (!event.dataTransfer?.types.includes('Files')) return;
       event.preventDefault();
-      over(true);
+      if (!over.hidden) return;
+      over.hidden = false;
+      over.textContent = words.dropOver;
     });
     document.addEventListener('dragleave', (event) => {
-      if (!event.relatedTarget) over(false);
+      if (!event.relatedTarget) ends();
+    });
+    document.addEventListener('dragend', ends);
+    // When Escape ends the drag, a browser sends only this event, or the next movement.
+    document.addEventListener('keydown', ({ key }) => {
+      if (key === 'Escape') ends();
+    });
+    document.addEventListener('pointermove', () => {
+      if (!over.hidden) ends();
     });
     document.addEventListener('drop', (event) => {
-      over(false);
+      ends();
       if (!event.dataTransfer?.files.length) return;
       event.preventDefault();
       void this.take([...event.dataTransfer.files]);

@@ -26,7 +26,7 @@ export class PaintMap {
 
   colouring(): Colouring {
     return {
-      key: 'painted', label: words.paintMap,
+      key: 'painted', label: words.paintMap(this.editor.painted === 'thickness' ? words.paintWhatThickness : this.scale().title),
       of: () => ({
         scale: this.scale(),
         fill: (shape, out) => {

@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The panels as tabs, one of them visible; above them, the face that they edit.
+// The panels as tabs, one of them visible: the one that was left.
 import { at, element } from '../page/dom';
-import { faceColour } from '../page/face_colour';
-import type { StudioState } from './studio_state';
-import { words } from './words';
+import { remember, remembered } from '../page/remember';
 
 export interface Panel {
   key: string;
@@ -13,14 +11,14 @@ export interface Panel {
   seen?(now: boolean): void;
 }
 
-/** Greatest number of a variant's changes listed above the panels. */
-const mostChanges = 2;
+/** Under which the panel chosen last is remembered. */
+const tabKey = 'panel';
 
 export class Panels {
   private readonly tabs: HTMLButtonElement[];
   private readonly scrolled: number[] = [];
 
-  constructor(private readonly state: StudioState, private readonly panels: Panel[]) {
+  constructor(private readonly panels: Panel[]) {
     this.tabs = panels.map(({ key, title, element: panel }, i) => {
       const tab = element('button', title);
       Object.assign(tab, { type: 'button', id: `tab-${key}` });
@@ -36,9 +34,7 @@ export class Panels {
     });
     at('panel-tabs').append(...this.tabs);
     at('panels').append(...panels.map(({ element: panel }) => panel));
-    this.choose(0);
-    state.sceneChanged.add(() => this.showWhose());
-    state.shown.onChange(() => this.showWhose());
+    this.choose(Math.max(panels.findIndex(({ key }) => key === remembered(tabKey)), 0));
   }
 
   show(key: string): void {
@@ -57,6 +53,7 @@ export class Panels {
       panel.hidden = i !== chosen;
       seen?.(i === chosen);
     });
+    remember(tabKey, this.panels[chosen].key);
     // All panels share one scrolling element: each returns to its own position.
     scroller.scrollTop = this.scrolled[chosen] ?? 0;
   }
@@ -69,40 +66,5 @@ export class Panels {
     const next = (to[event.key] + this.tabs.length) % this.tabs.length;
     this.choose(next);
     this.tabs[next].focus();
-  }
-
-  /** The lines on base and on a variant share one place, one of which is hidden: a press that makes a
-   *  variant must not move what is pressed. */
-  private showWhose(): void {
-    const { state } = this;
-    const { edited } = state;
-    const whose = at('whose');
-    const focused = whose.contains(document.activeElement);
-    const dot = (face: number) => {
-      const made = element('i');
-      made.style.background = faceColour(face);
-      return made;
-    };
-    const ofBase = element('span', '', edited > 0 ? 'out-of-sight' : '');
-    const label = element('label', '', 'check');
-    const box = element('input');
-    Object.assign(box, { type: 'checkbox', checked: state.changeBase, id: 'change-base' });
-    box.addEventListener('change', () => {
-      state.changeBase = box.checked;
-      state.sceneChanged.notify();
-    });
-    label.append(box, words.changeBase);
-    ofBase.append(dot(0), state.changeBase ? words.whoseBaseItself : words.whoseBase, label);
-    const ofVariant = element('span', '', edited > 0 ? '' : 'out-of-sight');
-    if (edited > 0) {
-      const changes = state.changesOf(edited);
-      const more = changes.length - mostChanges;
-      const soFar = [...changes.slice(0, mostChanges), ...(more > 0 ? [words.whoseMore(more)] : [])].join(', ');
-      const text = soFar ? words.whoseSoFar(state.nameOf(edited), soFar) : words.whose(state.nameOf(edited));
-      ofVariant.append(dot(edited), text);
-      ofVariant.title = text;
-    }
-    whose.replaceChildren(ofBase, ofVariant);
-    if (focused) box.focus();
   }
 }

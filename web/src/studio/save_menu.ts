@@ -3,7 +3,7 @@
 import { at, button, element } from '../page/dom';
 import { fileName } from '../page/save';
 import { Refused, type Connection } from './connection';
-import { menuOf, type Menu } from './menu';
+import { menuOf, type Menu } from '../page/menu';
 import type { SaveRequest } from './protocol';
 import type { StudioState } from './studio_state';
 import { words } from './words';

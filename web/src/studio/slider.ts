@@ -37,6 +37,8 @@ export interface SliderOptions {
   step?: number;
   /** Only the slider, with its value behind it. */
   bare?: boolean;
+  /** Stands in the label's place. */
+  head?: HTMLElement;
   /** Called while the slider is dragged, and when it is released; null: reset. */
   live(value: number): void;
   done(value: number | null): void;
@@ -75,11 +77,11 @@ export class Slider {
       this.shownValue.setAttribute('for', id);
       this.element.append(this.range, this.shownValue);
     } else {
-      const label = element('label', name);
-      label.htmlFor = id;
+      const label = options.head ?? Object.assign(element('label', name), { htmlFor: id });
+      if (options.head) this.range.setAttribute('aria-label', name);
       const digits = element('span', '', 'digits');
       digits.append(this.digits, element('span', unit, 'unit'), this.back);
-      this.element.append(label, digits, this.range, this.inBase);
+      this.element.append(label, digits, this.range, this.inBase, element('span', hint, 'hint'));
     }
     this.listen();
   }

@@ -47,7 +47,7 @@ export class ViewVideo {
       for (let frame = 0; frame < timeS.length && !ended; ++frame) {
         this.showState(words.videoFrames(frame + 1, timeS.length));
         playback.seek(timeS[frame]);
-        this.draw(canvas, viewer.snapshot(1));
+        this.draw(canvas, viewer.snapshot(1, true));
         await sink.add((1e3 * (timeS[frame] - timeS[0])) / playback.speed);
       }
       this.keep(await sink.end());

@@ -15,15 +15,20 @@ const en = {
   useKeys: 'Use these keys',
   close: 'Close',
   noDevice: 'Hyperex is a research tool and no medical device.',
-  leftSide: 'Files and messages',
-  rightSide: 'Changes and figures',
+  leftSide: 'Files',
+  rightSide: 'Question, answer and changes',
+  files: 'Files',
+  filesHint: 'Open a scan, a recording or a scene; correct landmarks; follow a camera',
+  foldSide: 'Question and panels',
+  foldSideHint: 'Folds the panels away, so that the face has the whole window, and back',
+  dropOver: 'Drop it here. A scan, a scene, or a scan with its recording opens in the place of this face; a recording alone, or one in a ZIP, moves this face.',
 
   // Faces.
   facesRow: 'Faces',
   facesGroup: 'Face',
   base: 'Base',
   whatIf: 'What if…',
-  whatIfHint: 'Another face beside this one: weaker muscles, other tissue (n)',
+  whatIfHint: 'Another face beside base: weaker muscles, a preset (n)',
   swap: 'Swap',
   swapHint: 'Exchanges the left and the right face',
   modesGroup: 'How many faces',
@@ -36,23 +41,38 @@ const en = {
   duplicate: 'Duplicate',
   remove: 'Delete',
   copyOf: (name: string) => `${name}, copy`,
-  weakerTitle: 'Weaker muscles',
-  weakerWhat: 'Of',
   weakerSide: (side: string) => `${side} side`,
   weakerBranch: (branch: string) => `${branch} branch`,
   weakerMuscles: 'Single muscles',
-  weakerTo: 'Strength',
-  weakerToHint: 'Strength relative to base; 0 %: complete palsy',
-  weakerAdd: 'Show it',
+  sideFirst: (name: string, side: string) => `${side.toLowerCase()} ${name}`,
+  atPercent: (percent: number) => `at ${percent} %`,
   sideNames: { R: 'Right', L: 'Left' } as Record<'L' | 'R', string>,
   /** Over views of the face. */
   sideLetters: { R: 'R', L: 'L' } as Record<'L' | 'R', string>,
-  presetsTitle: 'From a preset',
-  presetAdd: 'Add',
+  presetsTitle: 'Presets',
   presetSource: (source: string, assumed: string) => `Source: ${source}. Assumed: ${assumed}.`,
   emptyTitle: 'Something else',
   emptyAdd: 'A copy of the face shown, to change',
   newVariant: 'What if',
+  chooserFind: 'Find a side, a nerve, a muscle, a preset',
+  chooserList: 'What changes',
+  chooserSays: 'A number sets the strength: “zygomatic right 30” is 30 % of what the motion needs; 0 % is a complete palsy.',
+  chooserNone: 'Nothing is called so.',
+
+  // The question and its answer.
+  question: 'What if',
+  questionAt: 'at',
+  questionAnd: '+ and …',
+  questionChoose: 'Choose what changes …',
+  questionInstead: 'What changes instead',
+  questionStrength: (of: string) => `Strength of ${of}`,
+  questionLeave: (change: string) => `Take back: ${change}`,
+  answer: 'Corners of the mouth, farthest from rest',
+  sidesApart: 'Sides',
+  apartNone: 'no difference',
+  apartDecided: (limit: string) => `apart: decided, above ${limit}`,
+  apartUndecided: (limit: string) => `apart: undecided, below ${limit}`,
+  doubtCount: (count: number) => (count === 1 ? '1 doubt about these figures' : `${count} doubts about these figures`),
   /** Faces are named after their changes: in letters a to z, digits, and a few signs. */
   briefNames: {
     'tissue.young_kpa': 'stiffness', 'tissue.viscosity_pa_s': 'viscosity', 'tissue.poisson': 'Poisson', 'tissue.density_kg_m3': 'density',
@@ -87,6 +107,7 @@ const en = {
   right: 'Right',
   rightHint: 'The subject’s own right',
   overlays: 'Show',
+  overlaysSheet: 'What is drawn over the skin',
 
   // Panels.
   panels: 'What to change',
@@ -94,10 +115,7 @@ const en = {
   muscles: 'Muscles',
   tissue: 'Tissue',
   scene: 'Scene',
-  whose: (name: string) => `Changes ${name}.`,
-  whoseSoFar: (name: string, changes: string) => `Changes ${name}. Its changes so far: ${changes}.`,
-  whoseMore: (count: number) => `${count} more`,
-  whoseBase: 'The first change makes another face beside the base, moved by the same muscle forces and named after the change.',
+  whoseBase: 'The scene as it is. Ask “What if…”, or change anything below: another face appears beside this one, moved by the same muscle forces.',
   whoseBaseItself: 'Changes the base itself: its forces are computed again, so that it follows the recording.',
   changeBase: 'Change the base itself',
   reset: (name: string) => `Reset ${name}`,
@@ -106,27 +124,25 @@ const en = {
   regionTitle: 'In one part of the face',
   regionChoose: 'Part',
   regionBoth: (name: string) => `${name}, both sides`,
-  regionStiffness: 'Stiffness there',
+  regionStiffness: 'Stiffness of this part',
   regionHint: 'Multiplies Young’s modulus there (tissue.region); 1: as the tissue elsewhere',
   thicknessWhy: 'All faces share one mesh: thickness belongs to the base.',
   thicknessAuto: 'From published depths',
   thicknessTakes: 'Needs a new mesh, which takes some seconds.',
   keyNames: {
-    'tissue.young_kpa': 'Stiffness (modulus E)',
+    'tissue.young_kpa': 'Stiffness',
     'tissue.viscosity_pa_s': 'Viscosity η',
     'tissue.poisson': 'Poisson’s ratio ν',
     'tissue.density_kg_m3': 'Density',
     'mesh.thickness_mm': 'Thickness',
     'motion.gain': 'Whole motion',
   } as Record<string, string>,
-  strengths: 'Strength, of what the motion needs',
+  strengths: 'Strength, of what the motion needs. M: none; S: no other muscle',
   wholeSide: 'Whole side',
   branches: 'Branches of the facial nerve',
   branchNames: {
     temporal: 'Temporal', zygomatic: 'Zygomatic', buccal: 'Buccal', mandibular: 'Marginal mandibular', cervical: 'Cervical',
   } as Record<string, string>,
-  palsy: 'Palsy',
-  palsyShort: 'palsy',
   mute: 'M',
   solo: 'S',
   muteHint: (name: string) => `Mute ${name}: it does not pull`,
@@ -175,9 +191,9 @@ const en = {
   paintScar: 'scar',
   paintTissue: (name: string) => name.charAt(0).toUpperCase() + name.slice(1),
   paintTimes: (name: string, factor: number) => `${name}, ${factor} ×`,
-  paintStiffness: 'Stiffness there',
+  paintStiffness: 'Stiffness',
   paintStiffnessHint: 'Multiplies Young’s modulus where the patch is (young_factor of tissue.region)',
-  paintViscosity: 'Viscosity there',
+  paintViscosity: 'Viscosity',
   paintViscosityHint: 'Multiplies the viscosity where the patch is (viscosity_factor of tissue.region)',
   paintWidth: 'Width',
   paintWidthHint: 'Of the brush, along the skin ([ and ])',
@@ -194,7 +210,7 @@ const en = {
   paintKeys: 'Drag over the face; beside it, or with Turn, dragging turns it. In the picture: arrow keys move the brush, Enter puts it down and lifts it, [ and ] change its width, Escape cancels the stroke.',
   paintDown: 'Brush down',
   paintUp: 'Brush up',
-  paintMap: 'Painted',
+  paintMap: (what: string) => `${what}, painted`,
   paintRemark: 'of the face as painted',
 
   // Figures.
@@ -226,7 +242,7 @@ const en = {
   embedded: 'Face built into Hyperex',
   startedWith: (name: string) => `Open ${name} again`,
   chooseFiles: 'Choose files…',
-  drop: 'or drop here: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML). A recording alone moves the face that is open.',
+  drop: 'Or drop anywhere: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML). A recording alone moves the face that is open.',
   uploading: (name: string) => `Reading ${name}`,
   opening: 'Opening',
   autosave: (title: string, when: Date) =>
@@ -316,7 +332,9 @@ const en = {
   remarksHere: 'There are remarks on values here',
   /** Sentences for remarks of the program, by id (remarks.ts). English shows the program's own. */
   remarks: {} as Record<string, string>,
-  noMessages: 'None.',
+  messageCount: (count: number, worst: 'error' | 'warning' | 'note') =>
+    `${count === 1 ? '1 message' : `${count} messages`}${worst === 'note' ? '' : worst === 'error' ? ', with errors' : ', with warnings'}`,
+  newMessage: (text: string) => `New message: ${text}`,
   lost: 'The studio’s server does not answer. Trying again … If it has ended, start hyperex studio again: unsaved work is kept.',
   refused: 'The server refuses this page: open the address that hyperex studio printed, with the part after #.',
   taken: 'The studio is open in another window.',
@@ -334,7 +352,7 @@ export type Words = typeof en;
 const languages: Record<string, Words> = { en };
 
 /** In the reader's language where there is one. */
-export const words: Words = languages[navigator.language.slice(0, 2)] ?? en;
+export const words: Words = languages[globalThis.navigator?.language.slice(0, 2) ?? 'en'] ?? en;
 
 /** Fills elements: data-word is their text, data-name their accessible name, data-hint their tooltip. */
 export function fillWords(root: ParentNode): void {

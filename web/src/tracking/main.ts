@@ -5,7 +5,8 @@ import './tracking.css';
 import type { Chart } from '../charts/chart_options';
 import { at, button, element, startPage } from '../page/dom';
 import { number } from '../page/format';
-import { dark, setPrinting } from '../page/theme';
+import { whenPrinting } from '../page/printing';
+import { dark } from '../page/theme';
 import { TimeChart } from '../charts/time_chart';
 import { headAndDistances, residuals, type Section } from './charts';
 import { Cursor, listenToKeys } from './cursor';
@@ -70,8 +71,7 @@ class Charts {
     this.shaded = faultSpans(tracking);
     cursor.onChange(() => this.mark());
     dark.addEventListener('change', () => this.redraw());
-    window.addEventListener('beforeprint', () => this.print(true));
-    window.addEventListener('afterprint', () => this.print(false));
+    whenPrinting(() => this.redraw());
   }
 
   section({ title, caption, charts }: Section): { head: HTMLElement; grid: HTMLElement } {
@@ -113,12 +113,6 @@ class Charts {
 
   private redraw(): void {
     for (const chart of this.charts) chart.draw();
-  }
-
-  private print(on: boolean): void {
-    setPrinting(on);
-    document.documentElement.classList.toggle('printing', on);
-    this.redraw();
   }
 }
 

@@ -7,6 +7,8 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "hyperex/anatomy/teeth/lathe.hpp"
+
 namespace hyperex::anatomy {
 namespace {
 
@@ -36,27 +38,17 @@ constexpr std::array<Crown, 7> kUpper = {{
 }};
 constexpr std::array<Crown, 7> kLower = {{
     {Kind::incisor, 9.0, 5.0, 3.5, 6.0, 5.3, 14, -2.5},
-    {Kind::incisor, 9.5, 5.5, 4.0, 6.5, 5.8, 12, -2.4},
-    {Kind::canine, 11.0, 7.0, 5.5, 7.5, 7.0, 6, -2.2},
-    {Kind::premolar, 8.5, 7.0, 5.0, 7.5, 6.5, -4, 0.3},
+    {Kind::incisor, 9.5, 5.5, 4.0, 6.5, 5.8, 12, -2.5},
+    {Kind::canine, 11.0, 7.0, 5.5, 7.5, 7.0, 6, -2.7},
+    {Kind::premolar, 8.5, 7.0, 5.0, 7.5, 6.5, -4, -0.9},
     {Kind::premolar, 8.0, 7.0, 5.0, 8.0, 7.0, -8, 0.5},
     {Kind::molar, 7.5, 11.0, 9.0, 10.5, 9.0, -12, 0.5},
     {Kind::molar, 7.0, 10.5, 8.0, 10.0, 9.0, -14, 0.5},
 }};
 constexpr double kUpperWidth = 56, kLowerWidth = 52;
 
-double smooth_step(double from, double to, double x) {
-  const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
-  return t * t * (3 - 2 * t);
-}
-
 double mixed(double a, double b, double share) {
   return a + (b - a) * share;
-}
-
-/// sign(x) |x|^power: the corners of a superellipse.
-double powered(double x, double power) {
-  return std::copysign(std::pow(std::abs(x), power), x);
 }
 
 /// The left half of an arch from the mid-line, in the plane x, z (mm); z is 0 in front.
@@ -116,7 +108,7 @@ class ArchCurve {
   double length_ = 0;
 };
 
-/// Where something of a jaw stands: m along the arch, l outwards, h towards the other jaw, mm.
+/// A position on a jaw: m along the arch, l outwards, h towards the other jaw, mm.
 struct Stand {
   Vec3 origin, m, l, h;
   Vec3 at(double along, double out, double up) const {
@@ -132,50 +124,22 @@ Stand stand_at(const ArchCurve& curve, double s, double edge_y, double lean_deg,
           std::cos(lean) * up + std::sin(lean) * out};
 }
 
-/// Rings of points, each of kSectors, closed by a point at either end.
-struct Lathe {
-  std::vector<std::vector<Vec3>> rings;
-  Vec3 first = Vec3::Zero(), last = Vec3::Zero();
-
-  TriMesh mesh() const {
-    const auto n = Index(rings.front().size()), count = Index(rings.size());
-    TriMesh out{Points(n * count + 2, 3), Triangles(2 * n * count, 3)};
-    for (Index r = 0; r < count; ++r)
-      for (Index k = 0; k < n; ++k)
-        out.points.row(r * n + k) = rings[std::size_t(r)][std::size_t(k)].transpose();
-    out.points.row(n * count) = first.transpose();
-    out.points.row(n * count + 1) = last.transpose();
-    Index row = 0;
-    for (Index k = 0; k < n; ++k) {
-      const int a = int(k), b = int((k + 1) % n), end = int(n * (count - 1));
-      out.triangles.row(row++) << int(n * count), b, a;
-      out.triangles.row(row++) << int(n * count) + 1, end + a, end + b;
-      for (Index r = 0; r + 1 < count; ++r) {
-        const int lower = int(r * n), upper = int((r + 1) * n);
-        out.triangles.row(row++) << lower + a, lower + b, upper + b;
-        out.triangles.row(row++) << lower + a, upper + b, upper + a;
-      }
-    }
-    return out;
-  }
-};
-
-/// How far the chewing surface lies under the cusps' tips, at (u, v) in the crown's outline, -1 to
-/// 1 along the arch and outwards.
+/// The depth of the chewing surface below the cusps' tips at (u, v) in the crown's outline: -1 to 1
+/// along the arch and outwards.
 double under_tips(const Crown& crown, double u, double v) {
   switch (crown.kind) {
     case Kind::incisor:
-      return 0.9 * std::pow(std::abs(u), 6);
+      return 0.7 * std::pow(std::abs(u), 7);
     case Kind::canine:
-      return 2.4 * std::pow(std::abs(u), 1.4);
+      return 1.5 * std::pow(std::abs(u), 1.5);
     case Kind::premolar: {
       const double across = std::sin(std::min(1.0, std::abs(v) / 1.2) * pi);
-      return 1.6 * (1 - std::cos(u * pi / 2) * across) + (v < 0 ? 0.6 : 0);
+      return 1.2 * (1 - std::cos(u * pi / 2) * across) + (v < 0 ? 0.4 : 0);
     }
     case Kind::molar: {
       const double across = std::sin(std::min(1.0, std::abs(v) / 1.2) * pi);
       const double along = 0.45 + 0.55 * std::pow(std::abs(std::sin(u * pi)), 0.8);
-      return 1.3 * (1 - along * across);
+      return 1.0 * (1 - along * across);
     }
   }
   return 0;
@@ -224,7 +188,8 @@ TriMesh crown_mesh(const Crown& crown, const Stand& stand) {
   return lathe.mesh();
 }
 
-/// What the gum follows at a place of the arch: between the teeth's middles linear.
+/// The neck that the gum follows at a place of the arch, interpolated linearly between the middles
+/// of the teeth.
 struct Neck {
   double s, edge_y, lean_deg, length, depth;
 };
@@ -276,7 +241,7 @@ struct Jaw {
 };
 
 TriMesh gum_mesh(const Jaw& jaw) {
-  constexpr double beyond = 3, height = 8, before = 1.0, margin = 0.7, papilla = 0.4;
+  constexpr double beyond = 3, height = 8, before = 1.0, margin = 0.7, papilla = 0.5;
   constexpr int sectors = 18;
   Lathe lathe;
   const double end = jaw.contact[7] + beyond;
@@ -308,20 +273,6 @@ TriMesh gum_mesh(const Jaw& jaw) {
     for (const Vec3& p : *ring) *at += p / double(ring->size());
   }
   return lathe.mesh();
-}
-
-double volume_of(const TriMesh& mesh) {
-  double sum = 0;
-  for (Index f = 0; f < mesh.triangles.rows(); ++f) {
-    const Vec3 a = mesh.points.row(mesh.triangles(f, 0)), b = mesh.points.row(mesh.triangles(f, 1)),
-               c = mesh.points.row(mesh.triangles(f, 2));
-    sum += a.dot(b.cross(c)) / 6;
-  }
-  return sum;
-}
-
-void turn_outwards(TriMesh& mesh) {
-  if (volume_of(mesh) < 0) mesh.triangles.col(1).swap(mesh.triangles.col(2));
 }
 
 void append(TriMesh& all, const TriMesh& part) {

@@ -7,8 +7,8 @@ namespace hyperex::anatomy {
 /// Size of the arches relative to those of an average adult.
 struct ArchSize {
   double scale = 1;    ///< of everything, > 0
-  double breadth = 1;  ///< the arches' width over the average, 0.6 to 1.2; a narrower arch is
-                       ///< longer, as the teeth keep their size
+  double breadth = 1;  ///< width of the arches relative to the average, 0.6 to 1.2; a narrower arch
+                       ///< is longer, because the size of the teeth does not change
 };
 
 /// Both rows of permanent teeth without the third molars, in occlusion, metres. Frame: x to the
@@ -23,7 +23,8 @@ struct ArchSize {
 /// each (2 to 3 mm count as normal: Proffit, Contemporary Orthodontics). Assumed: the shape of a
 /// crown between these figures (superellipses, cusps of 1 mm), the width W of the arches between
 /// the second molars' middles (56 and 52 mm), how crowns lean, and the gum: a rounded band about
-/// the necks, 1 mm thick before them, 8 mm high, that fills 2/5 of the height between neighbours.
+/// the necks, 1 mm thick before them, 8 mm high, that fills half of the height between neighbours.
+/// The lower incisors' edges are in one line, the lower canines 0.2 mm above it.
 /// Lower molars stand 0.5 mm clear of the upper ones.
 Teeth dental_arches(const ArchSize& size = {});
 

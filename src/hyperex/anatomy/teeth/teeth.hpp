@@ -23,6 +23,8 @@ struct JawTeeth {
 /// (Performance::jaw_now_from_rest).
 struct Teeth {
   JawTeeth upper, lower;
+  /// Moves with the lower row (tongue_in()); nothing touches it. May have no triangles.
+  TriMesh tongue = {};
 };
 
 /// Distance to crowns and gum of one jaw at rest (GridDistance of cells of 0.5 mm); null where

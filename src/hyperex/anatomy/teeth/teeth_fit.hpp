@@ -35,7 +35,8 @@ inline constexpr double kTeethClearance_m = 5e-4;
 ///    it (Downs, Am. J. Orthod. 34, 1948, 812).
 ///  * The lower arch is opened about the axis through the condyles (between ibug68_1 and 15) until
 ///    its incisors' edges stand 0.5 mm above the lower lip's (the same source), by 0.5 mm at least.
-///  * As far forward as leaves kTeethClearance_m to the tissue; where cheeks are in the way, the
+///  * The rows are as far forward as kTeethClearance_m to the tissue allows. Where the cheeks limit
+///  this, the
 ///    arch is made narrower if that lets it come forward by more than half of what it loses in
 ///    breadth.
 /// None where the mouth is no opening in the mesh, landmarks are missing, or no place is found

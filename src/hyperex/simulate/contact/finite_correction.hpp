@@ -13,7 +13,7 @@ namespace hyperex::simulate {
 /// forces, inertia and viscosity included, stay as they are at that moment. With f(d) the forces of
 /// elasticity and springs at displacement d, and d0 the displacement at the moment, the response to
 /// `more` is the d where f(d) = f(d0) + more on the free unknowns. Maxwell branches are taken as
-/// relaxed. One moment at a time.
+/// relaxed. Only one moment is stored.
 class FiniteCorrection {
  public:
   /// `springs`: on the pattern of System::stiffness; no columns: none. `prescribed`: unknowns that

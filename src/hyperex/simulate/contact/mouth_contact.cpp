@@ -12,17 +12,18 @@ namespace {
 
 using Eigen::Index;
 constexpr double kSettled_m = 10e-6;  // by which pairs may pass when the search ends
-constexpr double kWithin_m = 5e-4;    // pairs as near as this may come to touch in a round
+constexpr double kWithin_m = 5e-4;  // pairs with a smaller gap may come into contact within a round
 constexpr int kMostRounds = 12, kMostSweeps = 1000;
-/// From this round on what an obstacle's other faces were in the rounds before counts too.
+/// From this round on, faces of an obstacle that were nearest in earlier rounds are constraints
+/// too.
 constexpr int kFacesFrom = 4;
 constexpr double kSameFace = 0.95;  // cosine between outward normals
 constexpr double kSolved_m = 1e-6;
-/// Of the greatest compliance: many vertices hang on few nodes, and how they share the force does
-/// not matter.
+/// Regularisation, relative to the greatest compliance. Many vertices depend on few nodes, so the
+/// distribution of the force among them is not unique and does not matter.
 constexpr double kRidge = 1e-6;
 
-/// The derivative of a gap: what the motion of each node adds to it.
+/// The derivative of a gap with respect to the displacement of each node.
 using Row = std::vector<std::pair<int, Vec3>>;
 
 void add_row(const SkinCarrier& from, const Vec3& along, Row& to) {
@@ -65,7 +66,8 @@ struct MouthContact::Pair {
 
 namespace {
 
-/// Of one place on an obstacle: both rows have the same nodes and weights.
+/// Whether two pairs of the same place belong to the same face of an obstacle. Their rows have the
+/// same nodes and weights.
 template <class Pair>
 bool same_face(const Pair& a, const Pair& b) {
   const Vec3 &m = a.row.front().second, &n = b.row.front().second;

@@ -14,7 +14,7 @@ constexpr double kReach_m = 3 * kWidth_m;
 constexpr double kPlaceRidge = 1e-3;  // where places nearly coincide
 constexpr double kLeastShare = 1e-9;
 
-/// Where each vertex of the skin stands in mesh.rim, or -1.
+/// The index of each vertex of the skin in mesh.rim, or -1.
 std::vector<int> rows_of(const tissue::TissueMesh& mesh) {
   std::vector<int> row(mesh.anchors.size(), -1);
   for (std::size_t r = 0; r < mesh.rim.size(); ++r) row[std::size_t(mesh.rim[r].vertex)] = int(r);
@@ -25,7 +25,7 @@ void add_share(const tissue::RimVertex& from, double share, Eigen::Ref<Eigen::Ro
   for (std::size_t k = 0; k < from.node.size(); ++k) to[from.node[k]] += share * from.weight[k];
 }
 
-/// How far the field passes a place by: a row over the outer nodes.
+/// The error of the field at a place, as one row with a column per outer node.
 Eigen::RowVectorXd off(const tissue::TissueMesh& mesh, const std::vector<int>& row,
                        const Match& place) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(mesh.volume.surface_nodes());

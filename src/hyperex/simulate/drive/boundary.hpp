@@ -26,9 +26,9 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
                        const AlignedMotion& motion, const MeasuredRegion& region,
                        const DriveOptions& drive);
 
-/// Rows of the motion's points that carry the jaw: those that the options name, else those of
-/// `driven` over the chin (ibug68_6 to 10), else ibug68_8 or pogonion, else none. Throws InputError
-/// for a name that the motion lacks.
+/// Rows of the motion's points that determine the jaw's pose: those that the options name;
+/// otherwise those of `driven` over the chin (ibug68_6 to 10); otherwise ibug68_8 or pogonion;
+/// otherwise none. Throws InputError for a name that the motion lacks.
 std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
                           const SupportOptions& support);
 
@@ -76,7 +76,8 @@ class Boundary {
   void prescribe(const Points& point_displacement, const JawMotion& jaw,
                  Eigen::Ref<Eigen::VectorXd> values, Eigen::Ref<Eigen::VectorXd> force) const;
 
-  /// One flag per point of the motion: whether its displacement acts other than by the jaw.
+  /// One flag per point of the motion: whether its displacement has an effect apart from that on
+  /// the jaw.
   std::vector<char> acting_points() const;
   bool jaw_acts() const;
   const std::vector<int>& driven_nodes() const { return driven_->nodes; }

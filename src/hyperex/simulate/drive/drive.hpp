@@ -19,9 +19,9 @@ struct DrivenPoint {
 /// their displacements and of `still` places, which do not move. It meets every driven point and is
 /// linear in their displacements. So that the lips can part, it is interpolated on a face whose
 /// mouth is opened: skin above the mouth is shifted up and skin below it down, each by up to
-/// `mouth_shift_m`. Where points of the brows are driven, places 30 mm above them move as the mean
-/// of those of ibug68_0, 16 and 27 that are driven, or not at all: else the motion of the brows
-/// would reach nearly unchanged to the end of the scan.
+/// `mouth_shift_m`. If points of the brows are driven, places 30 mm above them are added. They move
+/// as the mean of those of ibug68_0, 16 and 27 that are driven, or not at all if none is. Otherwise
+/// the motion of the brows would extend nearly unchanged to the end of the scan.
 class DriveField {
  public:
   DriveField(std::vector<DrivenPoint> points, const std::vector<Vec3>& still,
@@ -59,9 +59,9 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
 /// Skin nodes that take prescribed displacements: a patch around each driven point. A patch reaches
 /// `patch_radius_m` where the lips part widely and 1.5 times as far where they stay closed, since
 /// the field is a better guess than the tissue in closed lips and a worse one in parting lips
-/// (docs/fidelity.md). It never reaches across the slit, and it always holds the nodes that carry
-/// the point. Its displacement is the field's, corrected so that the driven points end where they
-/// are driven: the mesh is linear between its nodes, and so it does not meet them by itself.
+/// (docs/fidelity.md). It never extends across the slit, and it always contains the nodes that
+/// carry the point. Its displacement is the field's, corrected so that the driven points end where
+/// they are driven: the mesh is linear between its nodes, and so it does not meet them by itself.
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|

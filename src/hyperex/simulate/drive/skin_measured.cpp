@@ -10,6 +10,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/smooth_step.hpp"
 #include "hyperex/simulate/drive/triangulate.hpp"
 
 namespace hyperex::simulate {
@@ -21,8 +22,7 @@ double share_at(const Vec3& p, const std::vector<Vec3>& centres, const RegionOpt
   for (const Vec3& c : centres) nearest = std::min(nearest, (p - c).norm());
   if (nearest <= options.measured_radius_m) return 1;
   if (nearest >= options.measured_radius_m + options.blend_m) return 0;
-  const double t = (nearest - options.measured_radius_m) / options.blend_m;
-  return 1 - t * t * (3 - 2 * t);
+  return 1 - smooth_step((nearest - options.measured_radius_m) / options.blend_m);
 }
 
 /// Which lip a place belongs to; only near the mouth and where it is clear.

@@ -164,7 +164,7 @@ Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, dou
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed) {
   Eigen::MatrixXd course = changed_course(load, options);
-  // Each row as large as the force that it stands for.
+  // Scales each row to the size of the force that it represents.
   const Eigen::VectorXd size = load.force.colwise().norm().transpose().cwiseMax(1e-12);
   course = size.asDiagonal() * course;
   return compressed_drive(at_steps(load.time_s, course, dt_s, steps + 1 + kBeyond), dt_s, steps,

@@ -52,8 +52,8 @@ Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::s
 Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
                           const std::vector<double>& times_s);
 
-/// The first of the twelve rows of HeldLoad::course that hold the jaw's motion: the turn of a
-/// Boundary::JawMotion column by column, then its slide. For a load of muscles.
+/// For a load by muscles: index of the first of twelve rows of HeldLoad::course that contain the
+/// jaw's motion, namely the turn of Boundary::JawMotion (column by column) and then its slide.
 Eigen::Index jaw_row(const HeldLoad& load);
 
 /// The forces of the load at one instant (3 |nodes|, N), with mirroring and gains, in time as
@@ -65,14 +65,14 @@ Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, dou
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed);
 
-/// What gains of 1 + `change` (one number per muscle) add to the load as it was recorded: the
+/// The load that gains of 1 + `change` (one number per muscle) add to the load as recorded: the
 /// columns of the muscles whose gain changes, with their course times the change. Without names.
 HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change);
 
 /// One flag per column: whether its force turns with the tissue at finite strain. Forces of muscles
 /// of the cheek (TemplateMuscle::cheek) turn, since their lines lie in the skin that they carry.
-/// All others keep their direction: those of lips and chin, of the jaw's springs, and what is left
-/// over (docs/mechanics.md).
+/// All others keep their direction: those of lips and chin, of the jaw's springs, and the residual
+/// forces (docs/mechanics.md).
 std::vector<char> turning_columns(const HeldLoad& load, const muscles::MuscleTable& table);
 
 /// The load with the course of all columns but the wanted ones set to zero.

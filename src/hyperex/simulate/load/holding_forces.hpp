@@ -8,16 +8,16 @@
 
 namespace hyperex::simulate {
 
-/// Forces and what they make of the skin, a column each.
+/// Forces and the displacements that they cause, one column per load case.
 struct HeldShape {
   Eigen::MatrixXd force;  ///< 3 |all nodes| x n, N; 0 but at the held nodes
   Eigen::MatrixXd moved;  ///< 3 |outer nodes| x n, m
 };
 
-/// Forces that hold nodes where the columns of `displaced` (3 |nodes| x n, m) put them, the rest of
-/// the face being in equilibrium without forces. `nodes`: outer ones, rising, none prescribed by
-/// the model's boundary. `between` (may be empty) is called repeatedly; it may throw, which ends
-/// the computation.
+/// Forces that keep nodes at the displacements in the columns of `displaced` (3 |nodes| x n, m),
+/// with the rest of the face in equilibrium without external forces. `nodes`: outer ones, rising,
+/// none prescribed by the model's boundary. `between` (may be empty) is called repeatedly; it may
+/// throw, which ends the computation.
 HeldShape holding_forces(const MuscleModel& model, const std::vector<int>& nodes,
                          const Eigen::MatrixXd& displaced, const std::function<void()>& between);
 

@@ -22,7 +22,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// Of what is left over at the points, this share of the greatest may be lost between its shapes.
+/// Allowed error of the compressed residual at the points, as a share of the greatest residual.
 constexpr double kLeftOverLost = 1e-4;
 
 /// The points that drive.
@@ -101,8 +101,8 @@ Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven
   return out;
 }
 
-/// What the field between the driven points makes of the patches beyond what nodal displacements
-/// (3 |nodes| x n) make of them, the points being where these have them.
+/// The displacement of the patches by the field between the driven points, minus that by the nodal
+/// displacements `nodal` (3 |nodes| x n). The driven points are displaced according to `nodal`.
 Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
                                   const Eigen::MatrixXd& nodal, Eigen::Index points) {
   Eigen::MatrixXd out = field_in_patches(patches, driven, at_places(driven.carrier, nodal), points);
@@ -133,7 +133,8 @@ HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const D
   return out;
 }
 
-/// Of each column of forces_of() but the left-over's: narrow bands, wide ones, the jaw's.
+/// The tissue's share for each column of forces_of() except those of the residual: narrow bands,
+/// wide bands, jaw.
 Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOptions& options) {
   const auto count = static_cast<Eigen::Index>(model.lines().size());
   Eigen::VectorXd of_muscle(count);
@@ -219,8 +220,8 @@ std::vector<int> carrying(const CarrierMatrix& carrier) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// Adds forces that lead the skin between the points from where `skin` has it towards where shapes
-/// of real faces would have it. They stay as they are when muscles change.
+/// Adds forces that correct the displacement of the skin between the points, `skin`, towards that
+/// of shapes of real faces. These forces do not change when muscles change.
 void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const AlignedMotion& motion, const SimulationOptions& options,
                 const MuscleModel& model, const Driven& driven, const LoadedSkin& skin,

@@ -18,10 +18,10 @@ namespace hyperex::simulate {
 inline constexpr int kFewPoints = 20;
 
 /// The forces that make a recorded motion in this tissue. At each sample of the motion activations
-/// and the jaw's pose are fitted to the driven points (muscle_fit.hpp). The residual at the points
-/// becomes forces too, which hold patches of skin around the points (driven_skin) where the muscles
-/// put them plus the interpolated residual. In static equilibrium the driven points then end where
-/// patches would put them, and nothing is prescribed.
+/// and the jaw's pose are fitted to the driven points (muscle_fit.hpp). Further forces account for
+/// the residual at the points: they keep the patches of skin around the points (driven_skin) at the
+/// displacement by the muscles plus the interpolated residual. In static equilibrium, the driven
+/// points are then where prescribed patches would place them, although nothing is prescribed.
 /// `model`: muscle_model() with these options. `between` (may be empty) is called repeatedly; it
 /// may throw, which ends the computation.
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,

@@ -11,7 +11,7 @@ namespace {
 /// Directions that carry less than this share of the greatest are left out.
 constexpr double kDirectionLost = 1e-3;
 
-/// How far each outer node follows the correction, 0 to shape_share.
+/// The share of the correction at each outer node, 0 to shape_share.
 Eigen::VectorXd shares(const Points& nodes, const CarriedShapes& shapes, const Points& points,
                        const MuscleOptions& options) {
   Eigen::VectorXd share = shapes.cover() * options.shape_share;
@@ -47,7 +47,8 @@ CarrierMatrix smoothing(const Points& opened, const std::vector<int>& rows,
   return out;
 }
 
-/// Of weights per node and point the three columns of each point, one for each axis.
+/// Expands weights (one per node and point) to three rows per node and three columns per point, one
+/// for each axis.
 Eigen::MatrixXd along_axes(const Eigen::MatrixXd& weights) {
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * weights.rows(), 3 * weights.cols());
   for (Eigen::Index i = 0; i < weights.rows(); ++i)

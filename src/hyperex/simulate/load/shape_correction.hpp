@@ -10,14 +10,15 @@
 
 namespace hyperex::simulate {
 
-/// What a load makes of the outer nodes and of the driven points at the samples of a motion.
+/// The effect of a load on the outer nodes, and the observed driven points, at the samples of a
+/// motion.
 struct LoadedSkin {
   Eigen::MatrixXd moved;   ///< 3 |outer nodes| x k, m: by each column of the load
   Eigen::MatrixXd course;  ///< k x samples
-  Eigen::MatrixXd points;  ///< 3 |driven points| x samples, m: where they were seen, less rest
+  Eigen::MatrixXd points;  ///< 3 |driven points| x samples, m: observed displacement
 };
 
-/// A displacement to add to that of a load, as few directions over time.
+/// A displacement that is added to that of a load, as a few directions with time courses.
 struct SkinCorrection {
   std::vector<int> nodes;     ///< outer nodes that it displaces, rising
   Eigen::MatrixXd displaced;  ///< 3 |nodes| x directions

@@ -24,14 +24,14 @@ struct MovedPlaces {
   std::vector<double> upper_margin = {};
 };
 
-/// What driven points tell about the displacement u(x) of other places of the skin, given how real
-/// faces move. Before a point is seen,
+/// Gaussian posterior of the displacement u(x) of the skin, given the driven points and a prior of
+/// how real faces move. The prior is
 ///   u(x) = c(x) S(x) w + r(x),  w ~ N(0, Sigma),  E r(x) r(y)^T = m(x) m(y) exp(-|x - y|^2 / 2
 ///   l^2) I,
 /// with the shapes S, 1 (on the face) to 0 (off it) as CarriedShapes::cover() for c, and the
-/// covariance Sigma of their weights (expression/shape_model.hpp; their bound, w >= 0, is not
-/// regarded), m(x) = misfit_m + misfit_share |u(x)|, of the motion found, and
-/// l = misfit_length_m. With P = E u u^T, the covariance is then
+/// covariance Sigma of their weights (expression/shape_model.hpp; their bound w >= 0 is ignored),
+/// m(x) = misfit_m + misfit_share |u(x)|, of the motion found, and l = misfit_length_m. With P = E
+/// u u^T, the covariance is then
 ///   P_xx - P_xp (P_pp + point_m^2 I)^-1 P_px.
 /// Rasmussen and Williams, Gaussian Processes for Machine Learning (2006), eq. 2.24.
 class ShapePosterior {

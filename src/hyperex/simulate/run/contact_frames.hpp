@@ -18,7 +18,8 @@ struct ContactDepths {
   double most() const;
 };
 
-/// The frames and stills of a run as contact sees them. They are numbered as in `frame_times`.
+/// The frames and stills of a run, for the detection of contact. They are numbered as in
+/// `frame_times`.
 class ContactFrames {
  public:
   using Places = std::vector<std::shared_ptr<const ObstaclePlaces>>;
@@ -36,11 +37,11 @@ class ContactFrames {
   const std::vector<Points>& at_sides(std::size_t i) const { return at_sides_[i]; }
   const Places& places() const { return places_; }
 
-  /// Measures some frames as they now are, in parallel.
+  /// Measures the current depths in some frames, in parallel.
   void measure(const std::vector<std::size_t>& which, RunProgress& progress);
   /// The greatest of all frames as last measured.
   ContactDepths greatest() const;
-  /// The frames in which something is deeper than is worth a correction.
+  /// The frames in which a depth is large enough to be corrected.
   std::vector<std::size_t> touching() const;
   /// Which places of each obstacle come near it in some of the frames.
   std::vector<std::vector<char>> near_places(const std::vector<std::size_t>& which) const;

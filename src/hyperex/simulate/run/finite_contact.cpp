@@ -33,8 +33,9 @@ double FiniteContact::depth_m(const Work& work) const {
 
 FiniteContact::Round FiniteContact::round(Work& work, bool take_off, const Eigen::VectorXd* guess,
                                           Eigen::Ref<Eigen::VectorXd> best) {
-  // What the forces of the last round did, to first order at rest, is taken off. What they did in
-  // the displaced tissue and what they should have done then differ less and less.
+  // The effect of the last round's forces, to first order at rest, is subtracted. The difference
+  // between their effect in the displaced tissue and the required one then decreases from round to
+  // round.
   if (take_off) contact_.take_off(work.first_order, work.skin, work.at_sides);
   const MouthContact::Correction next =
       contact_.correct({work.skin, work.at_sides, frames_.jaw(work.frame)});

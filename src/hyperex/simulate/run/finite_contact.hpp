@@ -10,9 +10,9 @@
 
 namespace hyperex::simulate {
 
-/// Corrects frames at finite strain, one after the other. Contact forces are found in the
-/// compliance at rest, and the tissue as it is displaced answers them. A frame takes some rounds of
-/// both, until nothing passes through anything else or the rounds gain little.
+/// Corrects frames at finite strain, one after the other. Contact forces are computed with the
+/// compliance at rest; then the response of the displaced tissue to them is computed. These two
+/// steps are repeated for each frame until nothing penetrates any more or the improvement is small.
 class FiniteContact {
  public:
   /// The displacement of the skin, of that of all nodes, in frame `i`.
@@ -30,7 +30,7 @@ class FiniteContact {
   double hopeless_m() const { return hopeless_m_; }  ///< least depth of these
 
  private:
-  /// What contact did in a frame: altogether, and to first order at rest.
+  /// The effect of contact in a frame: the total displacement, and that to first order at rest.
   struct Push {
     std::size_t frame = 0;
     Eigen::VectorXd in_all, first_order;

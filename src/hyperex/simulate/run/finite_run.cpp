@@ -98,7 +98,7 @@ class Prescribed {
   Eigen::VectorXd values_, still_values_, courses_, nodal_;
 };
 
-/// Of displacements, read off at given times while steps go by.
+/// Records displacements at given times, by interpolation, while the steps are computed.
 class ReadOff {
  public:
   ReadOff(const std::vector<double>& times_s, const fem::FiniteNewton& newton)

@@ -10,8 +10,8 @@
 
 namespace hyperex::simulate {
 
-/// What moves a face at finite strain. Drives are given at steps of `step_s` and are linear between
-/// them.
+/// Loads and prescribed motion of a face at finite strain. Drives are given at steps of `step_s`
+/// and are linear between them.
 struct FiniteDrive {
   double step_s = 0.002;
   fem::Drive still;    ///< prescribed displacements, and forces that keep their direction
@@ -23,8 +23,8 @@ struct FiniteDrive {
 
 struct FiniteSolution {
   Solution solution;
-  /// Forces (N) that act on the nodes of `places` because they are prescribed. As forces they make
-  /// the same motion.
+  /// Reaction forces (N) on the nodes of `places`. If they are applied instead of the prescribed
+  /// displacements, the motion is the same.
   NodalCourse reactions;
   int steps = 0, parts = 0, iterations = 0, factorisations = 0;
 };

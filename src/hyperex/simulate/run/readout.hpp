@@ -13,8 +13,8 @@
 
 namespace hyperex::simulate {
 
-/// Reads skin, landmarks and lips off a moving face. It depends on the face alone and serves any
-/// number of runs. Const members may be called from several threads.
+/// Computes the motion of skin, landmarks and lips from that of the tissue. It depends on the face
+/// only and can be used for any number of runs. Const members may be called from several threads.
 class Readout {
  public:
   /// `mesh` must outlive this.
@@ -24,7 +24,7 @@ class Readout {
   /// where it is measured, the tracked points (P x 3). `rim`: DrivenPoints::rim.
   PointsF skin(const MeasuredRegion& region, const std::vector<tissue::RimVertex>& rim,
                const Points& nodes, const Points& points) const;
-  /// The landmarks as the moved skin carries them, one sample per frame.
+  /// The landmarks, which move with the skin, one sample per frame.
   motion::Motion landmark_tracks(const std::vector<double>& time_s,
                                  const std::vector<PointsF>& frames) const;
 

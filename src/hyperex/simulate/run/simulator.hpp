@@ -31,7 +31,7 @@ inline constexpr const char* kForcesFoundAnew =
 /// that the steps do not resolve as strongly as it can.
 inline constexpr double kStreamGamma = 0.9;
 
-/// What happened in a run. Seconds are those of this run: 0 for stages that were kept.
+/// Report on a run. Times (s) are those spent in this run: 0 for stages that were kept.
 struct SimulationReport {
   int free_dofs = 0, steps = 0, driven_nodes = 0, skull_nodes = 0, mandible_nodes = 0;
   int input_shapes = 0, basis_size = 0;    ///< basis_size 0: full model
@@ -42,8 +42,8 @@ struct SimulationReport {
   double verified_error = -1;  ///< measured against the full model; below 0: not measured
   double boundary_s = 0, assemble_s = 0, analyse_s = 0, factor_s = 0, basis_s = 0, simulate_s = 0,
          skin_s = 0;
-  /// Where forces drive: tissue or support was changed after a run, no load was held, and so this
-  /// run met the recording by other forces. The notes then include "forces.found_anew".
+  /// If forces drive: tissue or support was changed after a run without hold_load(), so this run
+  /// found other forces that reproduce the recording. The notes then include "forces.found_anew".
   bool forces_found_anew = false;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
   double greatest_opening_deg = 0;  ///< of the jaw

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What is set, and what it changes.
+// SPDX-License-Identifier: GPL-3.0-or-later Setting options, and their effect on the stages.
 #include <utility>
 
 #include "hyperex/core/error.hpp"

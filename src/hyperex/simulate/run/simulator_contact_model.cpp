@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// The stages of contact: which places may touch, and the compliance behind them.
+// SPDX-License-Identifier: GPL-3.0-or-later The stages of contact: the places that may come into
+// contact, and the compliance of the tissue there.
 #include <algorithm>
 #include <utility>
 
@@ -11,10 +11,10 @@
 namespace hyperex::simulate {
 namespace {
 
-/// Driven points that are farther from all that may touch (m) need not be held.
+/// Driven points farther than this (m) from all places that may come into contact need not be held.
 constexpr double kHeldNear_m = 0.015;
 
-/// Of the driven points near what may touch.
+/// The carriers of the driven points near such places.
 std::vector<SkinCarrier> carriers_near(const tissue::TissueMesh& mesh, const DrivenPoints& points,
                                        const Points& touching) {
   const CarrierMatrix all = carriers(mesh, points.places);
@@ -30,7 +30,7 @@ std::vector<SkinCarrier> carriers_near(const tissue::TissueMesh& mesh, const Dri
   return near;
 }
 
-/// What may touch and what carries it.
+/// The places that may come into contact, and their carriers.
 struct MayTouch {
   std::vector<SkinCarrier> lower, upper;
   std::vector<ObstacleSide> sides;
@@ -83,8 +83,8 @@ void Simulator::Impl::ensure_obstacle_places() {
   });
 }
 
-/// The stiffness that contact works against, in an order that ends with the nodes that may touch:
-/// what they feel can then be read off the factor.
+/// The factor of the stiffness that acts in contact. Nodes that may come into contact are
+/// eliminated last, so that their compliance follows directly from the factor.
 std::unique_ptr<fem::PartitionedFactor> Simulator::Impl::contact_factor(
     const std::vector<int>& nodes) const {
   const Boundary& boundary = *stages.values->boundary;

@@ -106,7 +106,7 @@ Solution Simulator::Impl::solve_finite(const std::vector<double>& times) {
                     end_s(), stages.load->patch_forces->time_s.back()));
   if (!by_forces() || held)
     return std::move(run_at_finite_strain(options.muscles, false, times).solution);
-  // What holds the patches belongs to the motion as it was recorded, whatever the gains.
+  // The forces that hold the patches are those of the motion as recorded, independent of the gains.
   FiniteSolution recorded = run_at_finite_strain(as_recorded(options.muscles), true, times);
   HeldLoad whole = stages.load.value();
   whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));

@@ -1,5 +1,4 @@
-// SPDX-License-Identifier: GPL-3.0-or-later
-// What is stored of a run and reported about it.
+// SPDX-License-Identifier: GPL-3.0-or-later The stored frames of a run, and its report.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -213,7 +213,7 @@ void Simulator::Impl::ensure_input(const PointCurve& points) {
           drive_by(stages.load.value(), options.muscles), stages.load->greatest_opening_deg});
     // A boundary follows the jaw from its last position on: a copy begins at rest.
     Boundary own = stages.boundary.value();
-    // What the shapes leave out must not show beside the error that the solver may make.
+    // The error of the compressed input must be negligible compared with the solver's tolerance.
     return std::make_shared<const InputShapes>(input_shapes(
         own, [&](double t) { return points.at(t); }, options.time.step_s, steps(),
         1e-3 * options.solver.tolerance));

@@ -8,10 +8,11 @@
 namespace hyperex::tissue {
 
 /// Linear interpolation over the Delaunay triangles of points in a plane, here of a face seen from
-/// in front; outside their hull the value at the hull's nearest place. Continuous, with kinks along
-/// the triangles' edges. Four points on a circle (two pairs alike on both sides are) have two
-/// triangulations: the mean of the plane's and of its mirror image's (x -> -x) is taken, so that
-/// mirrored points give the mirrored field. With all points on a line: linear along it.
+/// the front. Outside the convex hull, the value is that at the nearest place of the hull. The
+/// field is continuous, with kinks along the triangles' edges. Four points on a circle, such as two
+/// symmetric pairs, have two triangulations. Therefore the mean of the interpolations in the plane
+/// and in its mirror image (x -> -x) is taken, so that mirrored points give the mirrored field. If
+/// all points lie on a line, the field is linear along it.
 class FrontalField {
  public:
   /// `points`: n x 2, n >= 1, no two closer than 0.1 mm.

@@ -15,13 +15,14 @@ struct ResolvedPoint {
   std::string key;  ///< "point[2]" or "preset"
 };
 
-/// "L", "R", or "" in the middle; for an unknown name by its ending _L or _R.
+/// The side of a landmark: "L", "R", or "" for the middle. For an unknown name it is given by the
+/// ending _L or _R.
 std::string side_of_landmark(const std::string& name);
 
-/// The points of `options` at landmarks: a paired name without a side stands for both; with
-/// options.mirror each also holds for its counterpart. Adds to `problems`: unknown landmarks, a
-/// side that contradicts the name, a landmark on the wrong side of the face's middle (2 mm of
-/// slack), two values for one landmark.
+/// The points of `options`, one per landmark. A paired name without a side means both landmarks.
+/// With options.mirror, each point also applies to its counterpart. Adds to `problems` unknown
+/// landmarks, sides that contradict the name, landmarks on the wrong side of the midline (by more
+/// than 2 mm), and landmarks with two values.
 std::vector<ResolvedPoint> resolve_points(const TissueFieldOptions& options,
                                           const io::Landmarks& landmarks,
                                           std::vector<FieldProblem>& problems);

@@ -9,6 +9,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/smooth_step.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/field/data.hpp"
 
@@ -161,8 +162,7 @@ Eigen::VectorXd band_depth(const TriMesh& skin, const std::vector<Vec3>& line, d
 
 double region_share(double depth_m, double blend_m) {
   if (blend_m <= 0) return depth_m >= 0 ? 1 : 0;
-  const double s = std::clamp(depth_m / blend_m + 0.5, 0.0, 1.0);
-  return s * s * (3 - 2 * s);
+  return smooth_step(depth_m / blend_m + 0.5);
 }
 
 }  // namespace hyperex::tissue

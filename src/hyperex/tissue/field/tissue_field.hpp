@@ -20,7 +20,7 @@ namespace hyperex::tissue {
 std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
                                       const io::Landmarks& landmarks);
 
-/// False where the options give the same values everywhere, which uniform_parameters() are.
+/// False if the options give the same values everywhere, those of uniform_parameters().
 bool is_graded(const TissueFieldOptions& options);
 
 /// One value of each parameter per vertex of the skin (TissueMesh::skin) and per tetrahedron; SI.
@@ -34,7 +34,8 @@ struct TissueField {
   }
 };
 
-/// A problem that shows on the scan: an empty region, a parameter that leaves its range.
+/// A problem that can only be found with the scan: an empty region, or a parameter out of its
+/// range.
 struct FieldError : std::runtime_error {
   explicit FieldError(FieldProblem p)
       : std::runtime_error("tissue." + p.key + ": expected " + p.expected), problem(std::move(p)) {}
@@ -45,8 +46,8 @@ struct FieldError : std::runtime_error {
 /// with the scan. Throws InputError where they cannot be used.
 std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan);
 
-/// Fields on one mesh: what does not depend on the options is computed once, so that each variant
-/// costs only its own solve.
+/// Fields on one mesh. Parts that do not depend on the options are computed once, so that a variant
+/// needs only its own solution.
 ///   1. Each parameter is uniform, or where points give it interpolated between them. E itself is
 ///      interpolated, not its logarithm: fields then add up, as the source's models 2 and 3 do
 ///      about model 1.
@@ -65,7 +66,8 @@ class TissueFieldMaker {
 
   /// problems_of(options) must be empty. Throws FieldError, InputError (the file per vertex).
   TissueField make(const TissueFieldOptions& options) const;
-  /// How much of a region's change holds at each vertex of the skin, 0 to 1. Throws as make().
+  /// The share (0 to 1) of a region's change that applies at each vertex of the skin. Throws as
+  /// make().
   Eigen::VectorXd region_shares(const TissueFieldOptions& options, std::size_t index) const;
 
  private:

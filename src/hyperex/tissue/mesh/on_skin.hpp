@@ -9,14 +9,14 @@ namespace hyperex::tissue {
 /// vertices.
 TissueMesh with_full_skin(const TissueMesh& mesh);
 
-/// Closest points on the skin, near the mouth on the lip of the query point.
+/// Closest points on the skin. Near the mouth, they lie on the same lip as the query point.
 SideTree skin_tree(const TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// The scan that the skin was cut from, to whose vertices files with a row per vertex refer.
+/// The scan from which the skin was made. Files with one row per vertex refer to its vertices.
 TriMesh scan_of(const TissueMesh& mesh);
 
-/// Values of the scan's vertices, and values interpolated between them at the vertices that the cut
-/// added. Where an edge joined the lips, each end of the cut takes the value of its own lip, so
+/// Values at the scan's vertices, extended to the vertices that the cut added by interpolation
+/// along edges. If an edge joined the lips, each end of the cut takes the value of its own lip, so
 /// that values do not spread to the other lip.
 Eigen::VectorXd on_skin(const TissueMesh& mesh, const Eigen::VectorXd& of_scan);
 

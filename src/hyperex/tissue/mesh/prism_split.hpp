@@ -18,11 +18,12 @@ using PrismTets = std::array<std::array<PrismCorner, 4>, 3>;
 /// differ. `rank`: of the triangle's three corners.
 PrismTets split_prism(const std::array<double, 3>& rank);
 
-/// Ranks of the vertices for one layer of prisms between two levels, |V|: their numbers, and others
-/// where a prism split so has a flat tetrahedron (3 inradius / circumradius below 0.15) and other
-/// diagonals give plumper ones. This avoids tetrahedra a tenth of a millimetre high in folds
-/// without moving a node. All tetrahedra must have positive volume with the vertices' numbers as
-/// ranks, and then have it with the ranks returned. `top`, `bottom`: |V| x 3, m.
+/// Ranks of the vertices (|V|) for one layer of prisms between two levels. The ranks are the
+/// vertices' numbers, except where these give a flat tetrahedron (3 inradius / circumradius below
+/// 0.15) and other diagonals give better shapes. This avoids tetrahedra with a height of a tenth of
+/// a millimetre in folds without moving a node. If all tetrahedra have positive volume with the
+/// vertices' numbers as ranks, which is required, they also have it with the returned ranks. `top`,
+/// `bottom`: |V| x 3, m.
 std::vector<double> prism_ranks(const Triangles& triangles, const Points& top,
                                 const Points& bottom);
 

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "hyperex/geometry/geodesic.hpp"
+#include "hyperex/geometry/smooth_step.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
@@ -31,7 +32,7 @@ Edge edge(int a, int b) {
   return {std::min(a, b), std::max(a, b)};
 }
 
-/// Of the holes' borders.
+/// The borders of the holes: their edges, and a flag per node.
 struct Borders {
   std::set<Edge> edges;
   std::vector<char> node;
@@ -65,7 +66,7 @@ bool on_rim(const std::vector<std::pair<int, double>>& nodes, const Borders& bor
   return nodes.size() == 2 && borders.edges.count(edge(nodes[0].first, nodes[1].first)) > 0;
 }
 
-/// Of each outer node the vertex of the skin that it carries most, or -1.
+/// For each outer node, the vertex of the skin to whose motion it contributes most, or -1.
 std::vector<int> most_carried(const std::vector<Anchor>& anchors, Eigen::Index nodes) {
   std::vector<int> vertex(std::size_t(nodes), -1);
   std::vector<double> most(std::size_t(nodes), 0);
@@ -115,11 +116,6 @@ std::vector<int> rims_of(const TriMesh& skin, const TriMesh& outer, const Border
   return rims;
 }
 
-double smooth_step(double t) {
-  const double in = std::clamp(t, 0.0, 1.0);
-  return in * in * (3 - 2 * in);
-}
-
 using Carried = std::vector<std::pair<int, double>>;
 
 RimVertex mixed(int vertex, double share, const NodeWalks& walk_to, const Eigen::VectorXd& fit,
@@ -138,7 +134,7 @@ RimVertex mixed(int vertex, double share, const NodeWalks& walk_to, const Eigen:
   return one;
 }
 
-/// How much of the field each vertex takes: 0 away from the rims.
+/// The share of the field in the motion of each vertex: 0 away from the rims.
 std::vector<double> shares_of(const TriMesh& skin, const TriMesh& outer,
                               const std::vector<Anchor>& anchors, const Borders& borders,
                               const std::vector<double>& from_rim) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Where the skin hangs over a hole of the simulated surface: the rims of lips, lids and nostrils.
+// The parts of the skin that extend over a hole of the simulated surface: the rims of lips, lids
+// and nostrils.
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
@@ -17,14 +18,15 @@ struct RimVertex {
 };
 
 /// The vertices of the skin around the holes of the simulated surface. That surface is coarse and
-/// ends before a thin rim does: many vertices of the rim have the same closest point on it, and
-/// neighbours whose closest points differ would jump apart where the rim is drawn open.
-/// These vertices move by an affine field fitted to the displacements of the nodes around, by
-/// weighted least squares (moving least squares: Lancaster and Salkauskas, Math. Comp. 37, 1981,
-/// 141). Distances are measured along the skin, so that lips that touch at rest do not carry each
-/// other. The field alone moves vertices within 2 mm of the rim and those that hang over the
-/// surface's border by 1 mm. It fades to the anchor alone at 5 mm from the rim. `anchors`: one per
-/// vertex of the skin; `on_border`: per outer node, on the outer border, where nothing is fitted.
+/// ends before a thin rim does. Many vertices of the rim therefore have the same closest point on
+/// it, and neighbours with different closest points would separate when the opening widens. These
+/// vertices move by an affine field fitted to the displacements of the nodes around, by weighted
+/// least squares (moving least squares: Lancaster and Salkauskas, Math. Comp. 37, 1981, 141).
+/// Distances are measured along the skin, so that lips that touch at rest do not carry each other.
+/// The field alone moves vertices within 2 mm of the rim and those that extend beyond the surface's
+/// border by 1 mm. It fades to the anchor alone at 5 mm from the rim. `anchors`: one per vertex of
+/// the skin; `on_border`: per outer node, whether it is on the outer border, where nothing is
+/// fitted.
 std::vector<RimVertex> rim_vertices(const TriMesh& skin, const TriMesh& outer,
                                     const std::vector<Anchor>& anchors,
                                     const std::vector<char>& on_border);

@@ -23,9 +23,9 @@ struct PlaceOnMesh {
   }
 };
 
-/// Closest points on a face, near the mouth on the lip of the query point: in a straight line the
-/// other lip may be nearer. `margin` as in upper_lip_margin: above 0 on the upper side, 0 on
-/// neither.
+/// Closest points on a face. Near the mouth, they lie on the same lip as the query point, although
+/// the other lip may be nearer in a straight line. `margin` as in upper_lip_margin: above 0 on the
+/// upper side, 0 on neither.
 class SideTree {
  public:
   /// Sides are distinguished only within the sphere about the mouth.

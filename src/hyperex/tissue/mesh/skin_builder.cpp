@@ -147,8 +147,8 @@ Eigen::Index SkinBuilder::skin_row(Eigen::Index clean_triangle) const {
              : scan_.triangles.rows() + clean_triangle - uncut_triangles_;
 }
 
-/// Of the skin's vertices on the thinned surface. Those that the working copy lacks (islands,
-/// unused ones) go to the nearest point of it.
+/// The places of the skin's vertices on the thinned surface. Vertices that the working copy lacks
+/// (islands, unused ones) get the nearest point of it.
 std::vector<MeshPlace> SkinBuilder::places_of_skin(const ThinMesh& thin) const {
   std::vector<int> clean_vertex(out_.skin.points.rows(), -1);
   for (Eigen::Index f = 0; f < clean_.mesh.triangles.rows(); ++f)

@@ -14,20 +14,22 @@ namespace hyperex::tissue {
 /// The cleaned scan with the cuts that were requested, and the same cuts in the scan as given.
 class SkinBuilder {
  public:
-  /// Fills `out.skin` and what belongs to it; all must outlive this. Throws InputError.
+  /// Fills `out.skin` and the members that depend on it. All arguments must outlive this object.
+  /// Throws InputError.
   SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks, const std::string& source,
               TissueMesh& out);
 
   void cut(LipCut mode);
 
-  /// Where the scan has more than thinned_above_vertices: `out.skin` becomes a thinned working
-  /// copy, and `out.full` the skin before. `held`: the scan's vertices to keep.
+  /// If the scan has more than thinned_above_vertices vertices, `out.skin` becomes a thinned
+  /// working copy, and `out.full` the original skin. `held`: the scan's vertices to keep.
   void thin(double element_size_m, const std::vector<char>& held);
 
   /// The working copy.
   const TriMesh& mesh() const { return clean_.mesh; }
 
-  /// Values at the working copy's vertices, taken to those of the skin; 0 where it has none.
+  /// Transfers values from the working copy's vertices to those of the skin; 0 where there is no
+  /// value.
   std::vector<double> on_skin(const std::vector<double>& values) const;
 
  private:

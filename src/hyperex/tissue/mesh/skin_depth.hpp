@@ -14,15 +14,15 @@ bool is_painted(const TissueMeshOptions& options);
 /// scan. Throws InputError where they cannot be used.
 std::vector<Note> notes_on_depth_files(const TissueMeshOptions& options, const TriMesh& scan);
 
-/// Wanted thickness at points, m, without the files: the same everywhere, or depths at landmarks,
-/// interpolated (depth_field).
+/// Requested thickness at points, m, without the values of files: constant, or interpolated from
+/// depths at landmarks (depth_field).
 Eigen::VectorXd unpainted_depth(const Points& points, const io::Landmarks& landmarks,
                                 const TissueMeshOptions& options);
 
-/// Wanted thickness at each vertex of `mesh.skin`, m: unpainted_depth(), replaced by
-/// depth_per_vertex where that has values; then regions in turn, d <- d + w (depth - d), w the
-/// region's share at the vertex. `mesh` needs its skin (TissueMeshBuilder::with_skin), not its
-/// volume. Throws InputError.
+/// Requested thickness at each vertex of `mesh.skin`, m: unpainted_depth(), replaced by
+/// depth_per_vertex where that has values, then changed by one region after the other, d <- d + w
+/// (depth - d), where w is the region's share at the vertex. `mesh` needs its skin
+/// (TissueMeshBuilder::with_skin), not its volume. Throws InputError.
 Eigen::VectorXd skin_depth(const TissueMesh& mesh, const io::Landmarks& landmarks,
                            const TissueMeshOptions& options);
 

@@ -46,9 +46,10 @@ struct DepthRegion {
 
 /// Mean depths of adult facial soft tissue, whole millimetres, after C. N. Stephan and E. K.
 /// Simpson, "Facial soft tissue depths in craniofacial identification (part I)", J. Forensic Sci.
-/// 53 (2008) 1257-1272 (pooled adults). Craniometric points are carried to the nearest landmark
-/// (e.g. mid-philtrum to between subnasale and the upper lip). The cheek, 20 mm and more down to
-/// the teeth, is capped at 12 mm, since the layer that moves there ends at the cavity of the mouth.
+/// 53 (2008) 1257-1272 (pooled adults). Each craniometric point is assigned to the nearest landmark
+/// (mid-philtrum, for example, to the place between subnasale and the upper lip). The depth of the
+/// cheek, 20 mm and more down to the teeth, is limited to 12 mm, because the layer that moves there
+/// ends at the cavity of the mouth.
 const std::vector<DepthAt>& published_depths();
 
 /// A smooth field that lies between the least and the greatest of the given depths (Shepard's

@@ -34,7 +34,7 @@ struct TissueMeshOptions {
   std::filesystem::path depth_per_vertex;  ///< instead, where it has values: a row per scan vertex
   std::vector<DepthRegion> depth_regions;  ///< applied in turn
   LipCut cut_lips = LipCut::automatic;
-  double trim_border_m = 0;  ///< this much is taken off the scan's outer border
+  double trim_border_m = 0;  ///< width of the strip removed along the scan's outer border
 
   static constexpr const char* about = "The volume of soft tissue.";
   template <class Visitor>
@@ -84,17 +84,17 @@ struct FullSkin {
   std::vector<MeshPlace> places;   ///< of each vertex of `skin` on the thinned skin
 };
 
-/// Where a point of the skin sits on the simulated outer surface.
+/// The position of a point of the skin on the simulated outer surface.
 struct Anchor {
   std::array<int, 3> node{};  ///< outer nodes of the volume mesh
   Vec3 weight = Vec3::Zero();
 };
 
-/// A scan made ready for simulation.
+/// A scan prepared for simulation.
 struct TissueMesh {
-  /// The scan as given; where its lips were cut, triangles of the scan are replaced by one piece of
-  /// themselves, and new vertices and the other pieces are appended. Where the scan was thinned
-  /// (`full`), the thinned scan counts as the scan.
+  /// The scan as given. If its lips were cut, each triangle that the cut crosses is replaced by one
+  /// of its pieces; the other pieces and the new vertices are appended. If the scan was thinned
+  /// (`full`), "the scan" means the thinned scan.
   TriMesh skin;
   std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
   Eigen::Index scan_vertices = 0;
@@ -115,7 +115,7 @@ struct TissueMesh {
   std::vector<Note> notes;     ///< what was mended, trimmed or cut
 };
 
-/// build_tissue_mesh() in two steps: work on the skin alone can begin before the volume is built.
+/// build_tissue_mesh() in two steps, so that work on the skin can begin before the volume is built.
 class TissueMeshBuilder {
  public:
   /// Makes the skin. `scan` and `landmarks` must outlive this. Throws as build_tissue_mesh().
@@ -146,5 +146,10 @@ class TissueMeshBuilder {
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
                              const std::vector<char>& held = {});
+
+/// An estimate of the number of nodes on the outer surface of that mesh. Takes milliseconds, since
+/// nothing is meshed. `landmarks`: as for build_tissue_mesh().
+double expected_surface_nodes(const TriMesh& scan, const io::Landmarks& landmarks,
+                              const TissueMeshOptions& options);
 
 }  // namespace hyperex::tissue

@@ -8,9 +8,10 @@
 
 namespace hyperex::tissue {
 
-/// For each vertex the direction from which all triangles around it are seen from outside, as far
-/// as there is one (the normal turned towards the worst triangle until none is worse), and the
-/// least cosine between that direction and their normals: not above 0 where the surface is folded.
+/// For each vertex, a direction from which all triangles around it are seen from outside, if there
+/// is one. It is found by turning the vertex normal towards the triangle with the least cosine as
+/// long as that cosine grows. `least` is that cosine; it is 0 or negative where the surface is
+/// folded.
 struct Visibility {
   Points direction;       ///< |V| x 3, unit
   Eigen::VectorXd least;  ///< |V|
@@ -21,9 +22,9 @@ Visibility visibility_of(const TriMesh& mesh);
 void update_visibility(const TriMesh& mesh, const std::vector<char>& moved,
                        const std::vector<std::vector<int>>& fans, Visibility& visibility);
 
-/// Makes a surface fit to be thickened: smooths it around folded vertices (visibility below
-/// `least`), and where that does not help drops the triangles around them. Adds notes on what it
-/// did.
+/// Removes folds, so that a layer fits under the surface. Smooths the surface around folded
+/// vertices (visibility below `least`) and, if that does not help, removes the triangles around
+/// them. Adds notes on both.
 TriMesh unfold(const TriMesh& mesh, std::vector<Note>& notes, double least = 0.3);
 
 }  // namespace hyperex::tissue

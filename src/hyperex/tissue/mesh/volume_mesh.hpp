@@ -32,15 +32,16 @@ struct FoldedSurface : NumericalError {
 
 struct VolumeMeshOptions {
   int layers = 2;
-  /// Least volume of a tetrahedron as a share of its prism's ideal (area x height / 3); more is
-  /// tried first.
+  /// Least volume of a tetrahedron relative to the ideal one in its prism (area x height / 3).
+  /// Larger values are tried first.
   double least_volume_share = 0.01;
 };
 
-/// `outer`: manifold, oriented outwards. `thickness_m`: wanted, per outer vertex, > 0. Where the
-/// layer would fold (concave or thin places) the direction is smoothed and, failing that, the
-/// thickness is reduced, until every tetrahedron has positive volume; the notes say how often.
-/// Throws FoldedSurface where no positive layer exists (a folded outer surface).
+/// `outer`: manifold, oriented outwards. `thickness_m`: requested thickness per outer vertex, > 0.
+/// Where the layer would fold (concave or thin places), the direction is smoothed. If that is not
+/// enough, the thickness is reduced until every tetrahedron has positive volume. Notes state how
+/// often this was done. Throws FoldedSurface where no positive layer exists (a folded outer
+/// surface).
 VolumeMesh build_volume_mesh(const TriMesh& outer, const Eigen::VectorXd& thickness_m,
                              const VolumeMeshOptions& options = {});
 
@@ -56,8 +57,9 @@ struct MeshQuality {
 inline constexpr double dihedral_bounds_deg[] = {0, 5, 10, 20, 30, 90};
 MeshQuality quality_of(const Points& nodes, const Tetrahedra& tets);
 
-/// The whole surface of the layer of tissue: skin, inner surface (turned inwards), and between them
-/// along the borders. Its points: those of the skin, then those of the inner surface.
+/// The closed surface of the layer of tissue: the skin, the inner surface (with reversed
+/// orientation), and the strips between them along the borders. Its points are those of the skin,
+/// followed by those of the inner surface.
 TriMesh boundary_of(const VolumeMesh& volume);
 
 }  // namespace hyperex::tissue

@@ -29,7 +29,7 @@ struct Box {
   Vec3 centre() const { return (low + high) / 2; }
 };
 
-/// Of the vertices that `used` marks; of all where it is empty.
+/// The bounding box of the vertices marked by `used`, or of all vertices if it is empty.
 Box box_of(const Points& points, const std::vector<char>& used = {}) {
   Box box;
   for (Eigen::Index v = 0; v < points.rows(); ++v)

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hyperex/expression/arkit_names.hpp"
+
 namespace hyperex::tracking {
 
 ArkitWeights::ArkitWeights(const expression::FaceModel& model) {

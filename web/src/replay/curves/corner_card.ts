@@ -13,7 +13,7 @@ import { farthestSentences } from '../farthest';
 import { headUncertainty, headWords } from '../head_pose';
 import type { Shown } from '../shown';
 import { isNumber } from '../tables/figure_table';
-import { variantsOf, type VariantRow } from '../variants';
+import { changesOf, variantsOf, type VariantRow } from '../variants';
 
 /** Where the floor comes from, in words. */
 function floorWords(replay: Replay, corners: Corners): string {
@@ -50,8 +50,8 @@ interface Verdict {
   undecided: boolean;
 }
 
-/** What a variant changes, and of which side: a weak side that is dragged farther must not make the other one look
- *  weak. Null for base. */
+/** The change by a variant, and its side. If a weak side is dragged farther, the other side must not appear to be the
+ *  weak one. Null for base. */
 function changeVerdict(replay: Replay, face: number): Verdict | null {
   const change = face > 0 ? mostChanged(replay, face) : null;
   if (!change) return null;
@@ -68,7 +68,20 @@ function strong({ text, undecided }: Verdict): HTMLElement {
   return made;
 }
 
-/** Both corners and, for base, their difference. A variant answers two questions, which are told apart by their names:
+/** The question that the figures answer: what the face shown changes. */
+function questionLine(replay: Replay, face: number): HTMLElement {
+  const line = element('p', '', 'asked');
+  line.hidden = replay.faces.length < 2;
+  line.style.setProperty('--face', faceColour(face));
+  const changes = face > 0 ? changesOf(replay, face).join(', ') : '';
+  const words = element('span');
+  if (changes) words.append('What if: ', element('b', changes), '?');
+  else words.append(element('b', faceWords(replay.faces, face)), face === 0 ? ', nothing changed' : '');
+  line.append(element('i'), words);
+  return line;
+}
+
+/** Both corners and, for base, their difference. A variant answers two questions, with a name for each:
  *  what it changes, and whether its sides differ. */
 function headlines(replay: Replay, face: number, corners: Corners): HTMLElement[] {
   const line = element('p', '', 'headline');
@@ -114,7 +127,7 @@ function againstBase(replay: Replay, face: number, row: VariantRow | undefined):
   return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${band}${path && `; ${path}`}`;
 }
 
-/** Where the tissue shows when the corners are driven. */
+/** Where to see the effect of tissue if the corners are driven points. */
 function elsewhere(replay: Replay, face: number, row: VariantRow): string {
   const [where] = farthestSentences(replay, face, row);
   return where ? `corners as base. ${where}` : 'moves as base';
@@ -170,6 +183,8 @@ export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement)
   card.classList.add('corners');
   const line = element('div', '', 'said');
   const floor = element('p', '', 'floor');
+  const why = element('details', '', 'why-floor');
+  why.append(element('summary', 'What these figures are'), floor);
   const pose = headUncertainty(replay);
   const head = element('p', '', 'head-pose');
   head.append(...unbroken(pose ? headWords(pose) : ''));
@@ -177,12 +192,12 @@ export function dressCornerCard(replay: Replay, shown: Shown, card: HTMLElement)
   const show = () => {
     const face = shown.visible[shown.visible.length - 1];
     const corners = cornersOf(replay, face)!;
-    line.replaceChildren(...headlines(replay, face, corners));
+    line.replaceChildren(questionLine(replay, face), ...headlines(replay, face, corners));
     floor.replaceChildren(...unbroken(`${whatWords(replay, face)} ${floorWords(replay, corners)}`));
   };
   show();
   const unfollow = shown.onChange(show);
-  card.querySelector('.plot-head')!.after(line, head, floor);
+  card.querySelector('.plot-head')!.after(line, head, why);
   const lines = variantLines(replay, shown, cornersOf(replay, 0)!);
   if (lines) card.append(lines);
   return unfollow;

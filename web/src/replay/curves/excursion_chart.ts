@@ -14,7 +14,7 @@ import type { Shown } from '../shown';
 const apartMm = (a: (number | null)[], b: (number | null)[]): number =>
   Math.max(0, ...a.map((v, f) => (v === null || b[f] == null ? 0 : Math.abs(v - b[f]))));
 
-/** Until the reader chooses a side, that whose curve the variants shown change most; of base, that which any does. */
+/** Until the reader chooses a side: the side whose curve the variants shown (for base, all variants) change most. */
 export class ExcursionCurves {
   private chosen: Side | null = null;
 
@@ -51,7 +51,7 @@ export class ExcursionCurves {
   }
 }
 
-/** `changed` is called after each choice. The second function shows the side that the curves are of. */
+/** `changed` is called after each choice. The second function shows the side of the curves. */
 export function sideChooser(curves: ExcursionCurves, changed: () => void): { box: HTMLElement; show: () => void } {
   const label = element('label', '', 'one-of-chooser');
   const select = document.createElement('select');

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the muscles of either side do over time, by groups that points on the skin can distinguish, in base and in
-// variants.
+// The activations of the muscles of both sides over time, in base and in variants. Muscles that points on the skin
+// cannot distinguish are summed in groups.
 import type { Chart } from '../../charts/chart_options';
 import type { Face, MuscleGroup, Muscles } from '../data';
 import { element } from '../../page/dom';
@@ -12,8 +12,8 @@ import type { Shown } from '../shown';
 const strongest = (values: number[]): number => values.reduce((most, v) => (Math.abs(v) > Math.abs(most) ? v : most), 0);
 const pull = ({ left, right }: MuscleGroup): number => Math.max(...left, ...right);
 
-/** The groups, those that pull most in base first and those that only relax last; one of them is chosen. Of the faces
- *  that are shown, of two the second dashed. */
+/** The groups, sorted by activation in base; those that only relax are last. One of them is chosen. Curves are of the
+ *  faces shown; those of the second face are dashed. */
 export class MuscleCurves {
   readonly groups: MuscleGroup[];
   chosen = 0;

@@ -29,13 +29,18 @@ export class Plots {
     this.add('What each variant adds, Δ(ξL − ξR)', () => addedCurves(replay, shown));
     this.addMuscles(replay);
     this.addTracks(replay);
-    dark.addEventListener('change', () => this.plots.forEach((plot) => plot.draw()), { signal: this.undoing.signal });
+    dark.addEventListener('change', () => this.draw(), { signal: this.undoing.signal });
   }
 
   /** Takes all charts off the page. */
   dispose(): void {
     this.undoing.undo();
     for (const plot of this.plots.splice(0)) plot.remove();
+  }
+
+  /** After the page's colours have changed. */
+  draw(): void {
+    for (const plot of this.plots) plot.draw();
   }
 
   mark(timeS: number): void {

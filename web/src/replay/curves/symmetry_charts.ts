@@ -23,7 +23,7 @@ const facesWithCurve = (replay: Replay): { i: number; curve: SymmetryCurve }[] =
   replay.faces.flatMap(({ symmetry }, i) =>
     symmetry && symmetry.time_s.length === replay.symmetry?.time_s.length ? [{ i, curve: symmetry }] : []);
 
-/** What the noise floor is made of. */
+/** The contributions to the noise floor. */
 function floorWords({ jitter_mm = 0, mesh_noise = [] }: SymmetryCurve): string {
   const jitter = 'which a symmetric motion seen with the jitter of the points stays under in 95 of 100 samples';
   const mesh = 'which is what the mesh makes of a symmetric motion';
@@ -31,7 +31,7 @@ function floorWords({ jitter_mm = 0, mesh_noise = [] }: SymmetryCurve): string {
   return jitter_mm > 0 ? `the larger of that ${jitter} and that ${mesh}` : mesh;
 }
 
-/** Where the jitter is known its noise floor; else where S stops. */
+/** The noise floor if the jitter is known, otherwise the lower limit of S. */
 function floorOf(curve: SymmetryCurve): { curve: Curve; caption: string } {
   const { noise = [], floor } = curve;
   if (noise.length === curve.time_s.length)
@@ -122,7 +122,7 @@ export function addedCurves(replay: Replay, shown: Shown): Part[] {
     caption:
       'ξL − ξR of each face less that of base, the line at 0; above it the left side stretches more than there. ' +
       'This is what tissue changes; S(t) of a simulated face also holds what its mesh makes uneven (docs/symmetry.md).',
-    unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ(ξL − ξR) (relative change)', heightPx: 210,
+    unit: '', digits: 4, timeS: own.time_s, yLabel: 'Δ (relative change)', heightPx: 210,
     curves: faces.map(({ i, curve }) => ({
       label: faceWords(replay.faces, i), column: `${replay.faces[i].name}: Delta(xi_L - xi_R) (1)`,
       values: apart(curve).map((d, f) => (d === null || itself[f] === null ? null : d - itself[f]!)),

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands beside S(t): the plain millimetres of the corners first, and where S and these disagree about which of
-// two faces is more symmetric.
+// The text beside S(t): the millimetres of the corners, and a remark where S and the millimetres disagree about which
+// of two faces is more symmetric.
 import { apartMm, cornersOf, mm } from '../corners';
 import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
 import type { Shown } from '../shown';
 
-/** Of a side that hardly moves a ratio says nothing. */
+/** If one side hardly moves, the ratio of the sides is meaningless. */
 const leastForRatioMm = 0.5;
 
 /** "0.5 mm apart, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */

@@ -125,8 +125,12 @@ function expectedError(replay: Replay, map: SkinMap): Colouring {
   return { key: 'uncertainty', label: 'Error', of: () => painting };
 }
 
+/** Names of maps, where the page has a word of its own: Young's modulus is the stiffness. */
+const mapNames: Record<string, string> = { young_kpa: 'Stiffness' };
+
 function tissue(replay: Replay, key: string): Colouring {
-  const { name, unit, least, greatest } = replay.faces[0].tissue.find((map) => map.key === key)!;
+  const { name: given, unit, least, greatest } = replay.faces[0].tissue.find((map) => map.key === key)!;
+  const name = mapNames[key] ?? given;
   const bytesOf = (face: Face) => face.tissue.find((map) => map.key === key)?.bytes;
   const painting: Painting = {
     scale: { ramp: 'sea', title: name, unit, least, greatest, remark: ofAll(replay) },

@@ -2,7 +2,7 @@
 // One face to draw: its skin, coloured, and what is shown over it.
 import {
   BufferAttribute, BufferGeometry, DataTexture, DoubleSide, Group, LinearFilter, Mesh, MeshLambertMaterial,
-  MeshStandardMaterial, Raycaster, RGBAFormat, SRGBColorSpace, Texture, Vector3,
+  type MeshStandardMaterial, Raycaster, RGBAFormat, SRGBColorSpace, Texture, Vector3,
 } from 'three';
 import { Backing } from './backing';
 import { linearOf, rampBytes, type RampName } from './colour';
@@ -11,6 +11,7 @@ import type { Face, Replay } from '../data';
 import { FaceShape, type SceneMotion } from './deform';
 import { LevelOfDetail } from './level_of_detail';
 import { disposeOverlay, litMuscles, overlaysOf, type Overlay, type OverlayName } from './overlays';
+import { skinMaterial } from './skin_material';
 import { Teeth } from './teeth';
 
 const rampSize = 256;
@@ -29,12 +30,13 @@ export class FaceMaterials {
   /** Colours of a map, looked up for every pixel. */
   readonly mapped = new MeshLambertMaterial({ side: DoubleSide });
   /** The skin's own. */
-  readonly plain = new MeshStandardMaterial({
-    color: '#dba58c', roughness: 0.55, metalness: 0, side: DoubleSide,
-  });
+  readonly plain = skinMaterial();
+  /** Pairs for each vertex drawn, which the skin's own material reads. */
+  readonly lightAndFade: BufferAttribute;
   private readonly ramps = new Map<RampName, Texture>();
 
   constructor(replay: Replay) {
+    this.lightAndFade = new BufferAttribute(lightAndFade(replay), 2, true);
     this.useRamp('moss');
     if (!replay.colour) return;
     this.plain.vertexColors = true;
@@ -95,6 +97,7 @@ export class FaceBody {
     this.position = attribute('position', this.split ? new Float32Array(3 * count) : this.shape.position, 3);
     this.normal = attribute('normal', this.split ? new Float32Array(3 * count) : this.shape.normal, 3);
     this.ramp = attribute('uv1', new Float32Array(2 * count).fill(0.5), 2);
+    geometry.setAttribute('lightAndFade', materials.lightAndFade);
     if (replay.texture) attribute('uv', replay.texture.uv, 2);
     if (replay.colour) attribute('color', linearColours(replay.colour), 3);
     geometry.setIndex(new BufferAttribute(new Uint32Array(replay.texture?.triangles ?? replay.triangles), 1));
@@ -151,8 +154,8 @@ export class FaceBody {
     this.shape.moveTo(frame, live, this.normalsOf);
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
-    this.backing.follow(this.shape.position);
-    this.teeth.moveTo(face, frame);
+    this.backing.follow(this.shape.position, this.teeth.moveTo(face, frame));
+    this.teeth.light = this.backing.lightInMouth;
     for (const overlay of this.overlays)
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
     this.lit?.follow(this.shape.displacement);
@@ -247,6 +250,17 @@ export class FaceBody {
       out[to++] = from[at + 2];
     }
   }
+}
+
+function lightAndFade({ light, fade, texture }: Replay): Uint8Array {
+  const count = texture?.skinVertex.length ?? light.length;
+  const out = new Uint8Array(2 * count);
+  for (let i = 0; i < count; ++i) {
+    const v = texture ? texture.skinVertex[i] : i;
+    out[2 * i] = light[v];
+    out[2 * i + 1] = fade[v];
+  }
+  return out;
 }
 
 function linearColours(rgba: Uint8Array): Float32Array {

@@ -29,7 +29,7 @@ const barHeight = 76;
 const remarkHeight = 16;
 /** Of the words in the foot, and of those below a face. */
 const lineHeight = 16;
-/** Of what is told of a face. */
+/** Of the text below a face. */
 const mostLines = 14;
 const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
@@ -76,27 +76,26 @@ class Pen {
 }
 
 /** As the stage of the page: lighter behind the face. */
-function drawBackground(pen: Pen, stageHeight: number): void {
-  const { width, height, on } = pen;
-  pen.fill(pen.colour('--card'), 0, 0, width, height);
+function drawBackground(pen: Pen, top: number, stageHeight: number): void {
+  const { width, on } = pen;
   on.save();
   on.beginPath();
-  on.rect(0, headHeight, width, stageHeight);
+  on.rect(0, top, width, stageHeight);
   on.clip();
   // To the farthest corner, as style sheets do it.
   const [x, y] = [0.5 * width, 0.38 * stageHeight];
   const [rx, ry] = [0.5 * width * Math.SQRT2, 0.62 * stageHeight * Math.SQRT2];
-  on.translate(x, headHeight + y);
+  on.translate(x, top + y);
   on.scale(1, ry / rx);
   const fade = on.createRadialGradient(0, 0, 0, 0, 0, rx);
   fade.addColorStop(0, pen.colour('--stage-top'));
   fade.addColorStop(1, pen.colour('--stage-bottom'));
   on.fillStyle = fade;
-  on.fillRect(-2 * width, -2 * height * (rx / ry), 4 * width, 4 * height * (rx / ry));
+  on.fillRect(-2 * width, -2 * pen.height * (rx / ry), 4 * width, 4 * pen.height * (rx / ry));
   on.restore();
 }
 
-/** What is told of a face below it: its name and its figures. */
+/** The text below a face: its name and its figures. */
 interface Caption {
   face: PictureParts['faces'][number];
   lines: string[];
@@ -153,17 +152,36 @@ function footOf(pen: Pen, { faces, colours, cautions }: PictureParts): { lines: 
 }
 
 /** A line between two faces, through the stage alone. */
-function drawDivision(pen: Pen, divided: number, stageHeight: number): void {
+function drawDivision(pen: Pen, divided: number, top: number, stageHeight: number): void {
   const x = Math.min(Math.max(divided * pen.width, 2), pen.width - 2);
   pen.on.globalAlpha = 0.65;
-  pen.fill(pen.colour('--card'), x - 1.75, headHeight, 3.5, stageHeight);
+  pen.fill(pen.colour('--card'), x - 1.75, top, 3.5, stageHeight);
   pen.on.globalAlpha = 1;
-  pen.fill(pen.colour('--ink'), x - 0.75, headHeight, 1.5, stageHeight);
+  pen.fill(pen.colour('--ink'), x - 0.75, top, 1.5, stageHeight);
 }
 
-/** From the top: title and time, the stage, what is told of each face, the foot. Nothing lies over a face. */
+export type StageParts = Pick<PictureParts, 'stage' | 'scale' | 'marks' | 'divided'>;
+
+/** The faces on their background, from `top` on, with the letters of their sides `letterPx` high. */
+function drawStage(pen: Pen, { stage, scale, marks, divided }: StageParts, top: number, letterPx?: number): void {
+  const height = stage.height / scale;
+  drawBackground(pen, top, height);
+  pen.on.drawImage(stage, 0, top, pen.width, height);
+  drawSideMarks(pen.on, marks.map((mark) => ({ ...mark, y: top + mark.y })), pen.colour('--ink'), pen.colour('--card'), letterPx);
+  if (divided !== null) drawDivision(pen, divided, top, height);
+}
+
+/** The stage without words. */
+export function drawStageAlone(parts: StageParts, letterPx: number): HTMLCanvasElement {
+  const { stage, scale } = parts;
+  const pen = new Pen(stage.width / scale, stage.height / scale, scale);
+  drawStage(pen, parts, 0, letterPx);
+  return pen.canvas;
+}
+
+/** From the top: title and time, the stage, the text of each face, the foot. Nothing covers a face. */
 export function drawPicture(parts: PictureParts): HTMLCanvasElement {
-  const { stage, scale, faces, divided } = parts;
+  const { stage, scale, faces } = parts;
   const width = stage.width / scale;
   const stageHeight = stage.height / scale;
   const column = faces.length > 1 ? width / 2 : width;
@@ -175,16 +193,14 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   const captionTop = headHeight + stageHeight;
   const footTop = captionTop + captionHeight(captions);
   const pen = new Pen(width, footTop + foot.height, scale);
-  drawBackground(pen, stageHeight);
-  pen.on.drawImage(stage, 0, headHeight, width, stageHeight);
+  pen.fill(pen.colour('--card'), 0, 0, pen.width, pen.height);
+  drawStage(pen, parts, headHeight);
 
   const [ink, soft] = [pen.colour('--ink'), pen.colour('--ink-soft')];
-  drawSideMarks(pen.on, parts.marks.map((mark) => ({ ...mark, y: headHeight + mark.y })), ink, pen.colour('--card'));
   pen.on.font = `400 14px ${family}`;
   const timeWidth = pen.on.measureText(parts.time).width;
   pen.text(parts.title, margin, headHeight / 2, width < 620 ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
   pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
-  if (divided !== null) drawDivision(pen, divided, stageHeight);
   captions.forEach((caption, i) => drawCaption(pen, caption, margin + i * column, captionTop, most));
   if (captions.length > 0) pen.fill(pen.colour('--line'), margin, footTop - 0.5, width - 2 * margin, 1);
   if (parts.colours) drawScale(pen, parts.colours, footTop);

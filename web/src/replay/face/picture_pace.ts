@@ -7,6 +7,10 @@ import { drawsInSoftware } from '../software_gl';
  *  */
 const lateInARow = 3;
 
+/** Pixels for each of the page's while something moves: the face has most of the window, and each pixel costs. */
+const inMotion = 0.8;
+const whenLate = 0.7;
+
 export class PicturePace {
   readonly software = drawsInSoftware();
   /** More live shapes follow as fast as they are drawn, computed on the same processor. */
@@ -18,7 +22,7 @@ export class PicturePace {
   /** Pixels of the picture for each of the page's. */
   get ratio(): number {
     if (!this.software) return Math.min(window.devicePixelRatio, 2);
-    return this.late < lateInARow && !this.streaming ? 1 : 0.7;
+    return this.late < lateInARow && !this.streaming ? inMotion : inMotion * whenLate;
   }
 
   /** After a picture that was begun at `time`, ms. `refine` is called when no other follows. */

@@ -59,9 +59,9 @@ export function showSideMarks(viewer: Marked, host: HTMLElement): Undo {
 }
 
 /** Draws them into a picture. */
-export function drawSideMarks(on: CanvasRenderingContext2D, marks: SideMark[], ink: string, halo: string): void {
+export function drawSideMarks(on: CanvasRenderingContext2D, marks: SideMark[], ink: string, halo: string, px = 15): void {
   on.save();
-  on.font = "700 15px system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
+  on.font = `700 ${px}px system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif`;
   [on.textAlign, on.textBaseline, on.lineJoin, on.lineWidth] = ['center', 'middle', 'round', 4];
   [on.strokeStyle, on.fillStyle] = [halo, ink];
   for (const { letter, x, y } of marks) {

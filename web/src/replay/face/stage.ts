@@ -5,13 +5,15 @@ import { colouringsOf, type Colouring, type Painting } from './colouring';
 import type { Face, Replay } from '../data';
 import { at } from '../../page/dom';
 import { Undoing } from '../../page/listeners';
+import { wireSheet } from '../../page/menu';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
 import { faceHue } from '../../page/face_colour';
 import { faceWords } from '../../page/format';
 import type { Key } from '../keys';
 import { cornerFigures } from '../corners';
 import { headCaption, headUncertainty } from '../head_pose';
-import { drawPicture, pngOf } from './picture';
+import { drawPicture, pngOf, type PictureParts } from './picture';
+import { printedStage } from './printed_stage';
 import type { Playback } from '../playback';
 import { fileName, save, subject } from '../../page/save';
 import type { Shown } from '../shown';
@@ -24,8 +26,10 @@ import { FaceViewer } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
 const pictureScale = 2;
+/** Of the picture on paper, where a stage is some 9 cm wide. */
+const paperScale = 1.5;
 
-/** What the pointer does, which stands in the list of keys for want of another. */
+/** Actions of the pointer. They are in the list of keys, since the page has no other such list. */
 const byPointer = { when: () => false, act: () => {} };
 
 export class Stage {
@@ -72,6 +76,12 @@ export class Stage {
   /** The face in 3D; null where the browser has no WebGL. */
   get face(): FaceViewer | null {
     return this.viewer;
+  }
+
+  /** Whether the page may begin to play by itself. What the processor draws is coarse while it moves, and a reader may
+   *  want no motion. */
+  get playsByItself(): boolean {
+    return !window.matchMedia('(prefers-reduced-motion: reduce)').matches && !this.viewer?.pace.software;
   }
 
   /** Call it after a new motion or new variants: makes colours and their ranges, names and overlays again. The choices
@@ -177,6 +187,7 @@ export class Stage {
         for (const other of buttons) other.setAttribute('aria-pressed', String(other === button));
         this.viewer!.view.lookFrom(button.dataset.view as View);
       }, { signal: this.undoing.signal });
+    wireSheet(at('show-overlays'), at('overlays-sheet'), () => {}, this.undoing.signal);
   }
 
   private get choices(): Colouring[] {
@@ -232,6 +243,7 @@ export class Stage {
   private fillOverlays(): void {
     const chosen = new Set([...at('overlays').querySelectorAll('input')].filter((box) => box.checked).map((box) => box.dataset.overlay));
     at('overlays').replaceChildren();
+    at('show-overlays').hidden = this.viewer!.overlays.length === 0;
     for (const overlay of this.viewer!.overlays) {
       const label = document.createElement('label');
       const box = document.createElement('input');
@@ -267,15 +279,21 @@ export class Stage {
     );
   }
 
-  private async savePicture(): Promise<void> {
+  /** The stage as it stands, for paper, which WebGL leaves blank; null without WebGL. The faces are taken now, and the
+   *  returned function draws them in the colours of its time. */
+  forPaper(): (() => HTMLElement) | null {
+    if (!this.viewer) return null;
+    const [stage, marks] = [this.viewer.snapshot(paperScale), this.viewer.sideMarks];
+    return () => printedStage({ ...this.parts, stage, marks, scale: paperScale });
+  }
+
+  /** Of a picture in the page's present colours. */
+  private get parts(): Omit<PictureParts, 'stage' | 'marks' | 'scale'> {
     const { replay, shown, timeS, wipe } = this;
     const { palette } = theme();
     const named = replay.faces.length > 1 ? shown.visible : [];
     const pose = headUncertainty(replay);
-    const picture = drawPicture({
-      stage: this.viewer!.snapshot(pictureScale),
-      scale: pictureScale,
-      marks: this.viewer!.sideMarks,
+    return {
       title: subject(),
       time: `${timeS.toFixed(3)} s`,
       faces: named.map((i) => ({
@@ -286,6 +304,14 @@ export class Stage {
       divided: shown.mode === 'single' ? null : shown.mode === 'wipe' ? wipe!.at : 0.5,
       colours: this.painting.scale,
       cautions: [...(pose ? [headCaption(pose)] : []), ...(this.painting.caution ? [this.painting.caution] : [])],
+    };
+  }
+
+  private async savePicture(): Promise<void> {
+    const { replay, shown, timeS } = this;
+    const named = replay.faces.length > 1 ? shown.visible : [];
+    const picture = drawPicture({
+      ...this.parts, stage: this.viewer!.snapshot(pictureScale), marks: this.viewer!.sideMarks, scale: pictureScale,
     });
     const faces = named.map((i) => replay.faces[i].name);
     save(await pngOf(picture), fileName(subject(), ...faces, `${timeS.toFixed(3)} s`, 'png'));

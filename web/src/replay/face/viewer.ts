@@ -38,12 +38,11 @@ export class FaceViewer {
   private queued = 0;
   /** The canvas holds a picture drawn since the page was last put on the screen. */
   private fresh = false;
-  /** Only the live shape has changed since the last picture. */
-  private whole = false;
+  private whole = false; // only the live shape has changed since the last picture
   private liveStale = false; // the live shape alone has changed
   private coarse = false; // the last picture was drawn with few triangles
   private disposed = false;
-  private readonly pace = new PicturePace();
+  readonly pace = new PicturePace();
   private readonly drawn = new Listeners();
   private lit: ReadonlySet<string> = new Set();
   /** The shape of a face at this instant, instead of that of its motion. */
@@ -78,7 +77,7 @@ export class FaceViewer {
     this.view.lookFrom('front');
     const unfollow = shown.onChange(() => {
       this.refit();
-      this.touch();
+      this.markStale();
     });
     const sizes = new ResizeObserver(() => this.refit());
     sizes.observe(host);
@@ -94,7 +93,7 @@ export class FaceViewer {
       body.makeOverlays();
       body.lightMuscles(this.lit);
     }
-    this.touch();
+    this.markStale();
   }
 
   /** Frees everything. The canvas cannot be drawn to any more. */
@@ -115,7 +114,7 @@ export class FaceViewer {
     const same = live?.face === this.live?.face;
     this.live = live;
     if (!live || this.fresh || document.hidden) {
-      this.touch();
+      this.markStale();
       return;
     }
     // Drawn now for the next frame, instead of in it: saves up to one frame of delay.
@@ -161,7 +160,7 @@ export class FaceViewer {
     if (frame !== this.frame) this.live = null;
     this.frame = frame;
     this.playing = playing;
-    this.touch();
+    this.markStale();
   }
 
   paintAs(painting: Painting): void {
@@ -169,7 +168,7 @@ export class FaceViewer {
     const { scale } = painting;
     if (scale) this.materials.useRamp(scale.ramp);
     this.lights.light(scale ? 'map' : 'skin');
-    this.touch();
+    this.markStale();
   }
 
   /** Where the line between two faces in one place lies: 0 is the left edge, 1 the right. */
@@ -201,21 +200,25 @@ export class FaceViewer {
     return this.passes().map(({ body }) => body.figuresOf(vertex));
   }
 
-  /** What is shown, `scale` pixels for each of the page's. */
-  snapshot(scale: number): HTMLCanvasElement {
+  /** What is shown, `scale` pixels for each of the page's. `streaming`: more follow, then the page's own. */
+  snapshot(scale: number, streaming = false): HTMLCanvasElement {
     const before = this.renderer.getPixelRatio();
     const { clientWidth: width, clientHeight: height } = this.host;
-    // Where edges are not smoothed, twice the pixels in each direction make them smooth.
-    const finer = this.pace.software ? 2 * scale : scale;
+    // Where edges are not smoothed, more pixels in each direction make them smooth.
+    const finer = this.pace.software ? (streaming ? 1.5 : 2) * scale : scale;
     const most = this.renderer.capabilities.maxTextureSize / Math.max(width, height);
     this.renderer.setPixelRatio(Math.min(finer, most));
     this.draw();
     const copy = document.createElement('canvas');
-    copy.width = Math.round(scale * width);
-    copy.height = Math.round(scale * height);
+    [copy.width, copy.height] = [Math.round(scale * width), Math.round(scale * height)];
     const context = copy.getContext('2d')!;
     context.imageSmoothingQuality = 'high';
     context.drawImage(this.canvas, 0, 0, copy.width, copy.height);
+    if (streaming) {
+      cancelAnimationFrame(this.queued); // this was its picture
+      this.queued = 0;
+      return copy;
+    }
     this.renderer.setPixelRatio(before);
     this.draw();
     return copy;
@@ -357,7 +360,7 @@ export class FaceViewer {
     this.renderer.render(this.scene, this.view.camera);
   }
 
-  private touch(): void {
+  private markStale(): void {
     this.stale = true;
     this.queue();
   }

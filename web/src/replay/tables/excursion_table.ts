@@ -150,9 +150,14 @@ export function excursionTable(replay: Replay, shown: Shown, undoing: Undoing): 
     hidden.hidden = !hidden.hidden;
     label();
   });
+  const leftOut = element('p', '', 'left-out');
   const label = () => {
     fold.hidden = first.length === pairs.length;
     fold.textContent = hidden.hidden ? `Show ${pairs.length - first.length} more points` : 'Show fewer points';
+    const others = pairs.length - first.length;
+    leftOut.textContent = others === 0 || !hidden.hidden ? ''
+      : others === 1 ? '1 more point stands on the page itself; if it is shown there, it is printed, too.'
+      : `${others} more points stand on the page itself; if they are shown there, they are printed, too.`;
     fold.setAttribute('aria-expanded', String(!hidden.hidden));
     const scale = Math.max(...(hidden.hidden ? first : pairs).map(largest), 1e-9);
     table.style.setProperty('--most', String(scale));
@@ -177,6 +182,6 @@ export function excursionTable(replay: Replay, shown: Shown, undoing: Undoing): 
   card.querySelector('.scroller')!.before(whose);
   const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => Object.entries(pair)
     .some(([key, value]) => key.endsWith('undecided') && value === true)));
-  folding.append(fold, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
+  folding.append(fold, leftOut, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
   return card;
 }

@@ -60,7 +60,7 @@ const roomy = () => !window.matchMedia('(max-width: 700px)').matches;
 /** The card and its foldable part; `rows` returns all figures, not rounded, with their names and units in the first
  *  row. */
 export function figureCard(
-  title: string, lines: string[], table: HTMLTableElement, rows: () => (string | number | null)[][],
+  title: string, lines: (string | HTMLElement)[], table: HTMLTableElement, rows: () => (string | number | null)[][],
 ): { card: HTMLElement; body: HTMLElement } {
   const card = element('article', '', 'figures');
   const body = element('details');
@@ -70,7 +70,7 @@ export function figureCard(
   const saveTable = () => save(csvFile(rows()), fileName(subject(), title, 'csv'));
   tools.append(saveButton('CSV', 'Save the table, figures not rounded', title, saveTable));
   head.append(element('h2', title));
-  body.append(head, ...lines.map((line) => element('p', line)));
+  body.append(head, ...lines.map((line) => (typeof line === 'string' ? element('p', line) : line)));
   const caption = table.createCaption();
   caption.textContent = title;
   caption.className = 'unseen'; // the heading says the same

@@ -62,7 +62,7 @@ const insideOut: Column = {
   says: 'tetrahedra turned inside out in some frame: there the motion is too large for the model.',
 };
 
-function linesOf({ driven_point, response_point, table }: Variants): string[] {
+function linesOf({ driven_point, response_point, table }: Variants): (string | HTMLElement)[] {
   const points = driven_point && response_point
     ? [`Input of lag and hysteresis: ${landmarkName(driven_point)}, the driven point that moves most; response: ` +
        `${landmarkName(response_point)}, which moves most of those off the driven patches.`]
@@ -70,7 +70,9 @@ function linesOf({ driven_point, response_point, table }: Variants): string[] {
   const decided = table.some((row) => isNumber(row.added_xi_floor))
     ? 'All faces follow the very same motion, so its jitter does not count here. What a variant adds to ξL − ξR is undecided below its floor, which is what the mesh alone can make of it.'
     : 'All faces follow the very same motion. What the mesh alone adds to ξL − ξR is not known, so a small added difference is undecided.';
-  return ['Each variant against base. Press a name to see that face.', ...points, decided];
+  const first = element('p', 'Each variant against base.');
+  first.append(element('span', ' Press a name to see that face.', 'not-printed'));
+  return [first, ...points, decided];
 }
 
 /** Enough decimals for two significant digits of the column's largest figure. */

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+namespace hyperex::expression {
+
+/// The names of ARKit's 52 blend shapes, in alphabetical order, left before right.
+const std::vector<std::string>& arkit_shapes();
+
+/// The blend shapes that a unit's `arkit` names: for "mouthSmile*", the two with Left and Right;
+/// for a name without a star, the name itself; for "", none.
+std::vector<std::string> arkit_names(const std::string& pattern);
+
+}  // namespace hyperex::expression

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/report/complexion.hpp"
+
+#include <cmath>
+
+#include "hyperex/anatomy/eyeballs.hpp"
+#include "hyperex/anatomy/known_landmarks.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/geometry/rbf.hpp"
+#include "hyperex/report/face_backing.hpp"
+
+namespace hyperex::report {
+namespace {
+
+using Eigen::Index;
+
+/// Strength of the painted features: 0 shows the plain tone, 1 the lips and brows as painted.
+constexpr double kFaint = 0.6;
+
+/// Where each point of the scan lies in the canonical face's texture: |points| x 3, the third 0.
+Points texture_places(const io::Landmarks& landmarks, const Points& points) {
+  const face::CanonicalFace& canonical = face::canonical_face();
+  const anatomy::KnownLandmarks known = anatomy::known_landmarks(landmarks);
+  Points places = Points::Zero(Index(known.names.size()), 3);
+  for (std::size_t i = 0; i < known.names.size(); ++i) {
+    const std::vector<int>& vertices = canonical.landmarks.at(known.names[i]);
+    for (const int v : vertices)
+      places.row(Index(i)).head<2>() +=
+          canonical.uv.row(v).cast<double>() / double(vertices.size());
+  }
+  const Rbf place(known.given, places,
+                  {.polynomial = RbfPolynomial::affine, .merge_distance = 1e-4});
+  return place.at_all(points);
+}
+
+}  // namespace
+
+io::VertexColours complexion(const simulate::Performance& performance, face::SkinTone tone) {
+  io::VertexColours colours(0, 4);
+  const io::Landmarks landmarks = landmarks_at_rest(performance);
+  if (!anatomy::face_corners(landmarks)) return colours;
+  const face::SkinPicture& skin = face::painted_skin(tone, face::SkinDetail::soft);
+  const auto plain = face::tone_colour(tone);
+  const Points places = texture_places(landmarks, performance.skin_rest.points);
+  colours.resize(places.rows(), 4);
+  for (Index v = 0; v < places.rows(); ++v) {
+    const auto painted = skin.at(places(v, 0), places(v, 1));
+    for (int k = 0; k < 3; ++k) {
+      const double shown =
+          std::lerp(double(plain[std::size_t(k)]), double(painted[std::size_t(k)]), kFaint);
+      colours(v, k) = static_cast<std::uint8_t>(std::lround(shown));
+    }
+    colours(v, 3) = 255;
+  }
+  return colours;
+}
+
+}  // namespace hyperex::report

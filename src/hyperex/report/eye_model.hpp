@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/anatomy/eyeballs.hpp"
+#include "hyperex/geometry/types.hpp"
+#include "hyperex/render/render.hpp"
+
+namespace hyperex::report {
+
+/// An eyeball for display: a sphere with the colours of sclera, iris and pupil. No figure depends
+/// on it. Iris and pupil have diameters of 11.7 and 4 mm on a ball of 24 mm.
+struct EyeModel {
+  TriMesh mesh;  ///< radius 1, looking along +z
+  render::VertexColours colours;
+};
+
+/// Made once.
+const EyeModel& eye_model();
+
+/// The rotation from +z to the direction of gaze.
+Eigen::Quaterniond looking_along(const Vec3& gaze);
+
+/// In its place on the face, metres.
+TriMesh placed_eye(const anatomy::Eyeball& eye);
+
+/// For each vertex of placed_eye() of each eye, the share (0 to 1) of the light from all directions
+/// that reaches it between the lids. `skin`: at rest.
+std::vector<Eigen::VectorXf> light_on_eyes(const std::vector<anatomy::Eyeball>& eyes,
+                                           const TriMesh& skin);
+
+}  // namespace hyperex::report

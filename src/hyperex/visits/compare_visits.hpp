@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/visits/measured_face.hpp"
+#include "hyperex/visits/measures.hpp"
+#include "hyperex/visits/read_visits.hpp"
+
+namespace hyperex::visits {
+
+/// 95 % of the differences between two performances of a smile are below this: the minimal
+/// detectable change of a posed smile repeated after a week, mean over the face, of 12 adults
+/// (Tanikawa and Takada, Angle Orthod. 88, 2018, 319).
+inline constexpr double kUsualRepetition_m = 1.5e-3;
+
+/// Variances of the independent parts of an error, each in the square of the measure's unit.
+struct ErrorParts {
+  double jitter = 0, head_pose = 0, axes = 0, repetition = 0;
+
+  double measurement() const { return jitter + head_pose + axes; }
+  double all() const { return measurement() + repetition; }
+  ErrorParts& operator+=(const ErrorParts& other);
+  ErrorParts& operator/=(double divisor);
+  std::string largest() const;  ///< "jitter", "head pose", "axes" or "repetition"
+};
+
+/// A measure of one recording, to first order in its errors: each part is g' C g, with g the
+/// derivative of the measure by the points or the pose, and C the covariance of that error.
+struct Estimate {
+  double value = 0;  ///< NaN: not measured
+  ErrorParts variance;
+};
+/// `repetition_m`: as VisitsFile has it. The person's own variation is taken as an error of each
+/// point at the peak, independent between points and equal in all directions. For a measure of the
+/// face at rest it is an error of the points at rest.
+Estimate estimate(const Measure& measure, const MeasuredFace& face, double repetition_m);
+
+struct Interval {
+  double low = 0, high = 0;
+};
+
+/// A measure at one visit: the mean of its recordings.
+struct VisitValue {
+  double value = 0;
+  std::optional<Interval> measured;  ///< 95 %, by measurement alone; nothing: unknown
+  int recordings = 0;                ///< that measure it
+  ErrorParts variance;               ///< of the mean
+};
+
+enum class Beyond { no, yes, cannot_tell };
+
+/// The difference of a visit from the first.
+struct Change {
+  double value = 0;
+  Interval all;                      ///< 95 %, with repetition
+  std::optional<Interval> measured;  ///< 95 %, by measurement alone; nothing: unknown
+  /// Whether 0 lies outside `all`. If the measurement's part is unknown, a change beyond repetition
+  /// is cannot_tell.
+  Beyond beyond = Beyond::no;
+  std::string largest;  ///< the largest part of the error
+};
+
+struct MeasureOverVisits {
+  Measure measure;
+  std::vector<std::optional<VisitValue>> values;  ///< one per visit; nothing: not measured
+  std::vector<std::optional<Change>> changes;     ///< one per visit; nothing for the first
+  /// Standard deviation between the recordings of one visit, in the measure's unit; 0: too few.
+  double recorded_repetition = 0;
+};
+
+struct Comparison {
+  VisitsFile file;
+  std::vector<std::vector<MeasuredFace>> faces;  ///< by visit and recording
+  std::vector<MeasureOverVisits> measures;       ///< those that some visit has
+  double repetition_m = 0;
+  /// Whether the repetition is measured from the visits' own recordings, which takes three or more
+  /// visits' recordings beyond the first of each visit.
+  bool repetition_measured = false;
+};
+
+/// Compares each visit with the first. `faces`: by visit and recording, one or more per visit. With
+/// several recordings per visit, at least kLeastFreedom of them beyond each visit's first, the
+/// standard deviation s within visits is measured, and a change has the interval t s sqrt(1/n_1 +
+/// 1/n_k), t by Student for that many degrees of freedom, but at least that of the measurement.
+Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>> faces);
+
+/// Measures all recordings and compares the visits. `progress`: called with the number of
+/// recordings measured. Throws InputError.
+Comparison compare_visits(const VisitsFile& file,
+                          const std::function<void(std::size_t)>& progress = {});
+
+inline constexpr int kLeastFreedom = 3;
+
+/// "no", "yes", "cannot tell".
+std::string words_of(Beyond beyond);
+
+}  // namespace hyperex::visits

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/measured_face.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/same_place.hpp"
+#include "hyperex/geometry/transform.hpp"
+#include "hyperex/metrics/excursion.hpp"
+#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/metrics/nan.hpp"
+#include "hyperex/metrics/point_pairs.hpp"
+#include "hyperex/motion/option_error.hpp"
+#include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/session/recording_jitter.hpp"
+
+namespace hyperex::visits {
+namespace fs = std::filesystem;
+namespace {
+
+using metrics::kNan;
+const Vec3 kUnknown = Vec3::Constant(kNan);
+
+/// The motion without head pose, and the pose's errors where it was taken out.
+motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
+                                      MeasuredFace& face) {
+  try {
+    motion::StabilisedMotion steady =
+        motion::stabilise(motion, {.rigid_points = visits.rigid_points});
+    motion::check_reach(steady.motion);
+    face.head_known = true;
+    return steady;
+  } catch (const InputError& error) {
+    if (!visits.rigid_points.empty()) throw;
+    const auto* option = dynamic_cast<const motion::OptionError*>(&error);
+    face.remarks.push_back(
+        "head pose is not taken out and is in every figure: " +
+        (option ? option->sentence("rigid_points of the visits") : std::string(error.what())));
+  }
+  return {.motion = motion,
+          .pose_points = {},
+          .shift_uncertainty_m = {},
+          .turn_uncertainty_rad = {},
+          .poses = {}};
+}
+
+void settle_jitter(const motion::Motion& steady, std::optional<double> stated_m,
+                   MeasuredFace& face) {
+  if (stated_m) {
+    face.jitter_m = *stated_m;
+    face.jitter_known = true;
+    return;
+  }
+  const session::RecordedJitter found = session::recorded_jitter(steady);
+  face.jitter_m = found.jitter_m;
+  face.jitter_known = found.known;
+  if (!face.jitter_known)
+    face.remarks.push_back(
+        fmt::format("{}: {}; what its noise makes of a change is unknown (jitter_mm of the visit "
+                    "states it, 0 for exact points)",
+                    fs::path(steady.source).filename().string(), found.how));
+}
+
+/// The steady motion, low-passed where it has jitter.
+motion::Motion smoothed(motion::Motion motion, double cutoff_hz) {
+  if (!(cutoff_hz > 0)) return motion;
+  for (Eigen::Index p = 0; p < Eigen::Index(motion.names.size()); ++p) {
+    const Points track =
+        metrics::lowpassed(motion.time_s, track_of(motion, {int(p)}), cutoff_hz).value;
+    for (std::size_t k = 0; k < motion.positions.size(); ++k)
+      motion.positions[k].row(p) = track.row(Eigen::Index(k));
+  }
+  return motion;
+}
+
+std::size_t peak_of(const std::vector<double>& movement, const VisitsFile& visits,
+                    const fs::path& recording) {
+  std::size_t peak = movement.size();
+  for (std::size_t k = 0; k < movement.size(); ++k)
+    if (!std::isnan(movement[k]) && (peak == movement.size() || movement[k] > movement[peak]))
+      peak = k;
+  if (peak == movement.size())
+    throw InputError(recording,
+                     fmt::format("measures no points of the {}, which \"{}\" is judged by",
+                                 moved_part(visits.expression.movement), visits.expression.name));
+  return peak;
+}
+
+/// The first sample with half of the movement from the first sample to the peak.
+std::size_t first_half_of(const std::vector<double>& movement, std::size_t peak) {
+  const double rest = std::isnan(movement.front()) ? 0 : movement.front();
+  for (std::size_t k = 0; k < peak; ++k)
+    if (movement[k] >= (rest + movement[peak]) / 2) return k;
+  return peak;
+}
+
+/// The points that are measured in a sample, by all their names.
+io::Landmarks points_at(const motion::Motion& motion, std::size_t sample) {
+  io::Landmarks out;
+  for (std::size_t p = 0; p < motion.names.size(); ++p) {
+    const Vec3 place = motion.positions[sample].row(Eigen::Index(p)).transpose();
+    if (place.allFinite()) out[metrics::full_name(motion.names[p])] = place;
+  }
+  // Visits may be recorded with different sets of names.
+  const io::Landmarks named = out;
+  for (const auto& [name, place] : named)
+    if (const std::string other = face::other_name(name); !other.empty())
+      out.try_emplace(other, place);
+  return out;
+}
+
+double eye_distance(const io::Landmarks& rest) {
+  if (!rest.contains("exocanthion_R") || !rest.contains("exocanthion_L")) return kNan;
+  return (rest.at("exocanthion_R") - rest.at("exocanthion_L")).norm();
+}
+
+/// The points of the head that both recordings measure.
+std::vector<std::string> common_head_points(const MeasuredFace& a, const MeasuredFace& b,
+                                            const VisitsFile& visits) {
+  const auto& names =
+      visits.rigid_points.empty() ? motion::default_rigid_points() : visits.rigid_points;
+  std::vector<std::string> common;
+  for (const std::string& name : names)
+    if (a.rest.contains(name) && b.rest.contains(name)) common.push_back(name);
+  return common;
+}
+
+Points places_of(const std::map<std::string, Vec3>& rest, const std::vector<std::string>& names) {
+  Points out(Eigen::Index(names.size()), 3);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out.row(Eigen::Index(i)) = rest.at(names[i]).transpose();
+  return out;
+}
+
+/// The axes of the first recording, carried by the skull to this one.
+void carry_axes(const MeasuredFace& first, const VisitsFile& visits, const fs::path& recording,
+                MeasuredFace& face) {
+  const std::vector<std::string> common = common_head_points(first, face, visits);
+  const Points there = places_of(first.rest, common), here = places_of(face.rest, common);
+  face.state.axes.setConstant(kNan);
+  if (common.size() < 3 || spread_off_line(there) < 0.05) {
+    face.remarks.push_back(
+        fmt::format("{}: fewer than three still points in common with the first visit, so that "
+                    "directions cannot be compared",
+                    recording.filename().string()));
+    return;
+  }
+  const Eigen::Isometry3d here_from_there = fit_rigid(there, here);
+  Points fitted = there;
+  for (Eigen::Index i = 0; i < fitted.rows(); ++i)
+    fitted.row(i) = (here_from_there * Vec3(there.row(i).transpose())).transpose();
+  face.head_fit_m = rms_distance(fitted, here);
+  face.state.axes = first.state.axes * here_from_there.linear().transpose();
+  // Least squares of a rotation: variance of a coordinate times the inverse of sum |a|^2 I - a a'.
+  const double freedom = std::max(1.0, 3.0 * double(common.size()) - 6);
+  const double variance = (fitted - here).squaredNorm() / freedom;
+  Eigen::Matrix3d normal = Eigen::Matrix3d::Zero();
+  const Eigen::RowVector3d mean = here.colwise().mean();
+  for (Eigen::Index i = 0; i < here.rows(); ++i) {
+    const Vec3 arm = (here.row(i) - mean).transpose();
+    normal += arm.squaredNorm() * Eigen::Matrix3d::Identity() - arm * arm.transpose();
+  }
+  face.axes_covariance = variance * normal.inverse();
+}
+
+void settle_axes(const MeasuredFace* first, const VisitsFile& visits, const fs::path& recording,
+                 MeasuredFace& face) {
+  if (first) return carry_axes(*first, visits, recording, face);
+  face.state.axes.setConstant(kNan);
+  if (const auto frame = face::face_frame_of_corners(face.rest))
+    face.state.axes = frame->face_from_scan();
+  else
+    face.remarks.push_back(
+        fmt::format("{}: without the outer corners of the eyes and the corners "
+                    "of the mouth no directions are measured",
+                    recording.filename().string()));
+}
+
+void settle_points(const ByFacePoint<std::vector<int>>& columns, const ByFacePoint<Points>& tracks,
+                   std::size_t peak, MeasuredFace& face) {
+  for (std::size_t i = 0; i < kFacePoints; ++i) {
+    const bool known = !columns[i].empty();
+    face.state.rest[i] = known ? Vec3(tracks[i].row(0).transpose()) : kUnknown;
+    face.state.peak[i] = known ? Vec3(tracks[i].row(Eigen::Index(peak)).transpose()) : kUnknown;
+  }
+}
+
+void settle_noise(const ByFacePoint<std::vector<int>>& columns, const std::vector<double>& time_s,
+                  std::size_t peak, double cutoff_hz, MeasuredFace& face) {
+  const double rest_m = face.jitter_m * metrics::lowpassed_noise(time_s, 0, cutoff_hz),
+               peak_m = face.jitter_m * metrics::lowpassed_noise(time_s, peak, cutoff_hz);
+  for (std::size_t i = 0; i < kFacePoints; ++i) {
+    // A point is the mean of its columns.
+    const double averaged = std::sqrt(double(std::max<std::size_t>(1, columns[i].size())));
+    face.rest_jitter_m[i] = rest_m / averaged;
+    face.peak_jitter_m[i] = peak_m / averaged;
+  }
+}
+
+void settle_curves(const ByFacePoint<std::vector<int>>& columns, const motion::Motion& motion,
+                   MeasuredFace& face) {
+  for (const double time : motion.time_s) face.time_s.push_back(time - motion.time_s.front());
+  for (const Side side : {Side::right, Side::left}) {
+    const auto& corner = at(columns, of_side(FacePoint::corner_R, side));
+    if (!corner.empty())
+      face.corner_mm[std::size_t(side)] = metrics::distance_from_rest_mm(motion, corner);
+  }
+}
+
+void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
+  if (first) {
+    face.state.first_direction = first->state.first_direction;
+    return;
+  }
+  for (const Side side : {Side::right, Side::left}) {
+    const FacePoint corner = of_side(FacePoint::corner_R, side);
+    const Vec3 way = face.state.axes * (at(face.state.peak, corner) - at(face.state.rest, corner));
+    face.state.first_direction[std::size_t(side)] =
+        way.norm() >= kLeastMovement_m ? Vec3(way.normalized()) : kUnknown;
+  }
+}
+
+void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFace& face) {
+  constexpr double kLargestShare = 0.03;
+  if (!first || !(std::abs(face.eye_distance_m / first->eye_distance_m - 1) > kLargestShare))
+    return;
+  face.remarks.push_back(fmt::format(
+      "{}: the outer corners of the eyes are {:.1f} mm apart and {:.1f} mm at the first "
+      "visit: lengths may not be comparable",
+      recording.filename().string(), 1e3 * face.eye_distance_m, 1e3 * first->eye_distance_m));
+}
+
+}  // namespace
+
+MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
+                     std::optional<double> stated_jitter_m, const MeasuredFace* first) {
+  MeasuredFace face;
+  const fs::path name = motion::named(motion);
+  const motion::StabilisedMotion steady = without_head(motion, visits, face);
+  settle_jitter(steady.motion, stated_jitter_m, face);
+  const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
+  const motion::Motion smooth = smoothed(steady.motion, cutoff_hz);
+  const auto columns = face_points_of(smooth);
+  ByFacePoint<Points> tracks;
+  for (std::size_t i = 0; i < kFacePoints; ++i)
+    if (!columns[i].empty()) tracks[i] = track_of(smooth, columns[i]);
+  const std::vector<double> movement = movement_of(visits.expression.movement, tracks);
+  const std::size_t peak = peak_of(movement, visits, name);
+  face.rest = points_at(smooth, 0);
+  face.peak = points_at(smooth, peak);
+  face.peak_s = smooth.time_s[peak] - smooth.time_s.front();
+  face.half_s = smooth.time_s[first_half_of(movement, peak)] - smooth.time_s.front();
+  settle_points(columns, tracks, peak, face);
+  settle_noise(columns, smooth.time_s, peak, cutoff_hz, face);
+  if (!steady.poses.empty()) {
+    face.pose_covariance = steady.poses[peak].covariance;
+    face.pose_centre = steady.poses[peak].centre;
+  }
+  settle_curves(columns, smooth, face);
+  face.eye_distance_m = eye_distance(face.rest);
+  settle_axes(first, visits, name, face);
+  settle_first_direction(first, face);
+  note_size(first, name, face);
+  return face;
+}
+
+MeasuredFace measure_recording(const fs::path& recording, const VisitEntry& visit,
+                               const VisitsFile& visits, const MeasuredFace* first) {
+  const motion::MendedMotion mended = motion::without_wild_samples(
+      motion::until(motion::read_motion(recording, visits.unit), visit.end_s, "end_s"));
+  motion::check_reach_beside_head(mended.motion);
+  MeasuredFace face = measure(mended.motion, visits, visit.jitter_m, first);
+  for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
+                              session::exchanged_warning(mended.motion, session::average_face()),
+                              session::timing_warning(mended.motion)})
+    if (warning) face.remarks.push_back(warning->text);
+  return face;
+}
+
+}  // namespace hyperex::visits

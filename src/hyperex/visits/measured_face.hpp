@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/motion/motion.hpp"
+#include "hyperex/visits/measures.hpp"
+#include "hyperex/visits/read_visits.hpp"
+
+namespace hyperex::visits {
+
+/// One recording, reduced to the face at rest and at the peak of the expression, with the errors of
+/// both.
+struct MeasuredFace {
+  FaceState state;
+  std::map<std::string, Vec3> rest, peak;  ///< all points that are measured, m, without head pose
+  double peak_s = 0;                       ///< from the first sample
+  double half_s = 0;  ///< when the movement first reaches half of that at the peak
+  /// The corners of the mouth (right, left): distance from rest over time, mm; empty: not measured.
+  std::vector<double> time_s;
+  std::array<std::vector<double>, 2> corner_mm;
+  double eye_distance_m = 0;  ///< between the outer corners of the eyes; NaN: not measured
+
+  /// Standard deviation of a coordinate of each point after smoothing, m.
+  ByFacePoint<double> rest_jitter_m, peak_jitter_m;
+  bool jitter_known = false, head_known = false;
+  double jitter_m = 0;  ///< before smoothing
+  /// Error of the head's pose at the peak: covariance of a rotation (rad) about `centre` and a
+  /// translation (m).
+  Eigen::Matrix<double, 6, 6> pose_covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  Vec3 pose_centre = Vec3::Zero();
+  /// Error of the axes: covariance of a small rotation, rad. 0 for the recording that defines them.
+  Eigen::Matrix3d axes_covariance = Eigen::Matrix3d::Zero();
+  double head_fit_m = 0;  ///< rms distance of the head's points from those of the first recording
+
+  std::vector<std::string> remarks;  ///< what the reader must know of this recording, sentences
+};
+
+/// Measures a recording. The head pose is taken out (motion::stabilise). If the recording
+/// has jitter, all tracks are smoothed with metrics::kUsualLowpass_hz, and the jitter that is left
+/// at rest and at the peak follows from the weights of that filter. The peak is where the
+/// expression's movement (movement_of) is largest. Jitter counts as unknown if none shows and none
+/// is stated: a smoothed recording shows none. Throws InputError for what cannot be read or has no
+/// movement to measure.
+/// `first`: the first recording of the first visit, which defines the axes; null for itself.
+MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
+                     std::optional<double> stated_jitter_m, const MeasuredFace* first);
+
+/// Reads a recording of a visit (motion::read_motion), repairs single wild samples and measures it.
+MeasuredFace measure_recording(const std::filesystem::path& recording, const VisitEntry& visit,
+                               const VisitsFile& visits, const MeasuredFace* first);
+
+}  // namespace hyperex::visits

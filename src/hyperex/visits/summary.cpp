@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperex::visits {
+namespace {
+
+struct Headline {
+  const char* key;
+  const char* part;  ///< "corner of the mouth"
+  const char* more;  ///< words of a positive change
+  const char* less;
+};
+
+Headline headline_of(Expression::Movement movement) {
+  using enum Expression::Movement;
+  if (movement == lips) return {"lip_opening", "opening of the lips", "more", "less"};
+  if (movement == brows) return {"brow_raise", "brow", "more", "less"};
+  if (movement == lids) return {"eye_narrowing", "eye's closure", "more", "less"};
+  return {"corner_excursion", "corner of the mouth", "more", "less"};
+}
+
+std::string with_side(const std::string& side, const std::string& part) {
+  const std::string text = side == "R" ? "right " + part : side == "L" ? "left " + part : part;
+  return char(std::toupper(text.front())) + text.substr(1);
+}
+
+std::string interval_words(const Interval& interval, double sign) {
+  const double a = sign * interval.low, b = sign * interval.high;
+  return fmt::format("95 %: {:.1f} to {:.1f}", std::min(a, b), std::max(a, b));
+}
+
+std::string verdict(const Change& change, const Headline& words, const std::string& unit) {
+  const bool less = change.value < 0;
+  const std::string amount =
+      fmt::format("{:.1f} {} {} ({})", std::abs(change.value), unit, less ? words.less : words.more,
+                  interval_words(change.all, less ? -1 : 1));
+  if (change.beyond == Beyond::yes) return amount + ", beyond what measurement and repetition make";
+  if (change.beyond == Beyond::no) return amount + ", within what measurement and repetition make";
+  return amount +
+         "; whether that is beyond what measurement makes cannot be told, as its error is "
+         "not known";
+}
+
+std::string sentence(const MeasureOverVisits& one, const Headline& words, const VisitsFile& file) {
+  const std::string who = with_side(one.measure.side, words.part);
+  const std::string& unit = one.measure.unit;
+  const auto& first = one.values.front();
+  const auto& last = one.values.back();
+  if (one.values.size() == 1)
+    return fmt::format("{}: {:.1f} {} on {}.", who, first->value, unit, file.visits.front().label);
+  if (!first || !last)
+    return fmt::format("{}: not measured at both the first and the last visit.", who);
+  return fmt::format("{}: {:.1f} {} on {}, {:.1f} {} on {}: {}.", who, first->value, unit,
+                     file.visits.front().label, last->value, unit, file.visits.back().label,
+                     verdict(*one.changes.back(), words, unit));
+}
+
+}  // namespace
+
+std::vector<std::string> summary(const Comparison& comparison) {
+  const Headline words = headline_of(comparison.file.expression.movement);
+  std::vector<std::string> out;
+  for (const MeasureOverVisits& one : comparison.measures)
+    if (one.measure.key == words.key) out.push_back(sentence(one, words, comparison.file));
+  return out;
+}
+
+std::string repetition_sentence(const Comparison& comparison) {
+  if (comparison.repetition_measured)
+    return "Repetition is measured: it is how far the recordings of one visit differ from each "
+           "other, for each measure.";
+  const std::string figure = fmt::format(
+      "95 % of the differences between two performances of an expression by one person are taken "
+      "to be below {:.1f} mm",
+      1e3 * comparison.repetition_m);
+  if (comparison.file.repetition_m) return figure + ", as repetition_mm states it.";
+  return figure +
+         ", as in posed smiles of 12 adults a week apart (Tanikawa and Takada, Angle Orthod. 88, "
+         "2018, 319). Three recordings per visit would measure it for this person.";
+}
+
+std::vector<std::string> remarks(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const auto& visit : comparison.faces)
+    for (const MeasuredFace& face : visit)
+      for (const std::string& remark : face.remarks)
+        if (std::ranges::find(all, remark) == all.end()) all.push_back(remark);
+  return all;
+}
+
+}  // namespace hyperex::visits

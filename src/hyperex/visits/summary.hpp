@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hyperex/visits/compare_visits.hpp"
+
+namespace hyperex::visits {
+
+/// What changed between the first and the last visit, in sentences: for each side the measure that
+/// the expression is judged by. "Right corner of the mouth: 8.0 mm on 2026-06-01, 12.1 mm on
+/// 2026-03-01; 4.1 mm less (95 %: 2.3 to 5.9), beyond what measurement and repetition make." With
+/// one visit, its values alone.
+std::vector<std::string> summary(const Comparison& comparison);
+
+/// Where the figure for repetition comes from.
+std::string repetition_sentence(const Comparison& comparison);
+
+/// The remarks of all recordings, each once.
+std::vector<std::string> remarks(const Comparison& comparison);
+
+}  // namespace hyperex::visits

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A rig of blend shapes is measured while weights play it, and drives the tissue of its own scan.
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "apps/malformed.hpp"
+
+namespace hyperex {
+namespace {
+using testing::HasSubstr;
+
+class RigRoundTrip : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    std::string weights = "time_s,mouthSmileLeft,jawOpen\n";
+    for (int k = 0; k <= 30; ++k) {
+      const double share = (1 - std::cos(2 * std::numbers::pi * k / 30)) / 2;
+      weights += fmt::format("{},{},{}\n", k / 30.0, 0.8 * share, 0.3 * share);
+    }
+    put(in("weights.csv"), weights);
+    put(in("scene.toml"),
+        "scan.file = \"embedded\"\nmotion = { arkit = \"weights.csv\", rig = \"rig.glb\" }\n"
+        "mesh = { element_size_mm = 6 }\n");
+  }
+  void make_rig() const {
+    const Outcome made = call(
+        "rig embedded --out rig.glb --set mesh.element_size_mm=8 --set mesh.layers=1 "
+        "--set muscles.shape_prior=false");
+    ASSERT_EQ(made.status, 0) << made.err;
+  }
+  /// A cell of a table by its row's first cell and its column's name, NaN where there is none.
+  double cell(const std::string& file, const std::string& row, const std::string& column) const {
+    std::istringstream lines(read_file(in(file)));
+    std::string line;
+    std::getline(lines, line);
+    const auto cells = [](const std::string& text) {
+      std::vector<std::string> out;
+      std::istringstream stream(text);
+      for (std::string one; std::getline(stream, one, ',');) out.push_back(one);
+      return out;
+    };
+    const auto names = cells(line);
+    const auto at = std::find(names.begin(), names.end(), column) - names.begin();
+    while (std::getline(lines, line))
+      if (const auto found = cells(line); !found.empty() && found[0] == row)
+        return std::stod(found.at(std::size_t(at)));
+    return std::nan("");
+  }
+};
+
+TEST_F(RigRoundTrip, TheTissueFollowsTheRigByTheMillimetresThatItMeasures) {
+  make_rig();
+  const Outcome measured = call("symmetry weights.csv --rig rig.glb --excursions rig.csv");
+  ASSERT_EQ(measured.status, 0) << measured.err;
+  const Outcome run = call("run scene.toml --out out --no-cache");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_THAT(run.err, HasSubstr("0.0 mm rms apart before the smooth correction"))
+      << "the rig lists its landmarks, which are those of its scan";
+  for (const char* side : {"R", "L"}) {
+    const std::string column = fmt::format("excursion_{}_mm", side);
+    const double rig_mm = cell("rig.csv", "cheilion", column);
+    EXPECT_NEAR(cell("out/excursions.csv", "cheilion", column), rig_mm, 0.03 * rig_mm + 0.1)
+        << side;
+  }
+  EXPECT_GT(cell("rig.csv", "cheilion", "excursion_L_mm"), 6);
+}
+
+TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
+  const auto refused = [&](const std::string& arguments, int status, const std::string& part) {
+    const Outcome found = call(arguments);
+    EXPECT_EQ(found.status, status) << found.err;
+    const auto told = problems_in(found.err);
+    ASSERT_EQ(told.size(), 1u) << found.err;
+    EXPECT_THAT(told[0], HasSubstr(part));
+  };
+  refused("check scene.toml", 2, "rig.glb");
+  refused("symmetry weights.csv --rig none.glb", 2, "none.glb");
+  put(in("rig.glb"), "no model");
+  refused("symmetry weights.csv --rig rig.glb", 2, "rig.glb");
+  put(in("points.toml"),
+      "scan.file = \"embedded\"\nmotion = { file = \"embedded\", rig = \"rig.glb\" }\n");
+  refused("check points.toml", 2, "only weights move a rig");
+}
+
+}  // namespace
+}  // namespace hyperex

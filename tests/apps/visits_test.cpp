@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `hyperex visits` as a user calls it.
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "apps/malformed.hpp"
+#include "hyperex/io/text_table.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
+
+namespace hyperex {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+class Visits : public ProgramTest {
+ protected:
+  void SetUp() override {
+    ProgramTest::SetUp();
+    motion::Motion opening = motion::embedded_mouth_opening(good_landmarks());
+    motion::write_motion_csv(in("before.csv"), opening);
+    for (const char* name : {"cheilion_R", "ibug68_48"}) {
+      const auto column = Eigen::Index(opening.index_of(name));
+      ASSERT_GE(column, 0);
+      const Eigen::RowVector3d rest = opening.positions.front().row(column);
+      for (Points& at : opening.positions) at.row(column) = rest + 0.5 * (at.row(column) - rest);
+    }
+    motion::write_motion_csv(in("after.csv"), opening);
+    put("jitter_mm = 0\n");
+  }
+  void put(const std::string& more) const {
+    std::ofstream(in("v.toml")) << "patient = \"P-017\"\n[[visit]]\ndate = 2026-03-01\n"
+                                   "recording = \"before.csv\"\n"
+                                << more
+                                << "[[visit]]\ndate = 2026-06-01\nrecording = \"after.csv\"\n"
+                                << more;
+  }
+};
+
+TEST_F(Visits, WriteAPageAndATable) {
+  const Outcome outcome = call("visits v.toml --out v.html --table v.csv");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("Right corner of the mouth: "));
+  EXPECT_THAT(outcome.out, HasSubstr("no medical device"));
+  EXPECT_THAT(read_file(in("v.html")), testing::StartsWith("<!doctype html>"));
+  const io::TextTable table = io::read_text_table(in("v.csv"));
+  EXPECT_EQ(table.names.front(), "visit");
+  EXPECT_GT(table.rows.size(), 20u);
+  // Its own earlier output is replaced, and the same figures are written.
+  const std::string before = read_file(in("v.csv"));
+  EXPECT_EQ(call("visits v.toml --out v.html --table v.csv").status, 0);
+  EXPECT_EQ(read_file(in("v.csv")), before);
+}
+
+TEST_F(Visits, WarnOfJitterThatIsNotKnown) {
+  put("");
+  const Outcome outcome = call("visits v.toml");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.err, HasSubstr("jitter_mm"));
+}
+
+TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {
+  std::ofstream(in("mine.html")) << "<html>mine</html>";
+  std::ofstream(in("text.csv")) << "no recording\n";
+  std::ofstream(in("bad.toml")) << "[[visit]]\ndate = 2026-03-01\nrecording = \"text.csv\"\n";
+  const auto names = names_in(in(""));
+  for (const auto& [arguments, words] :
+       {std::pair{"visits none.toml", "no such file"}, std::pair{"visits .", "is a folder"},
+        std::pair{"visits v.toml --out mine.html", "is there already"},
+        std::pair{"visits v.toml --out v.pdf", "expected a name that ends in .html"},
+        std::pair{"visits v.toml --table before.csv", "before.csv"},
+        std::pair{"visits bad.toml --out v.html", "text.csv"},
+        std::pair{"visits before.csv", "sound TOML"}}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
+    const auto reported = problems_in(outcome.err);
+    ASSERT_EQ(reported.size(), 1u) << arguments << '\n' << outcome.err;
+    EXPECT_THAT(reported[0], HasSubstr(words)) << arguments;
+    EXPECT_EQ(names_in(in("")), names) << arguments;
+  }
+}
+
+}  // namespace
+}  // namespace hyperex

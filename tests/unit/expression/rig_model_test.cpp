@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/expression/rig_model.hpp"
+
+#include <gtest/gtest.h>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
+#include "support/refusal.hpp"
+
+namespace hyperex::expression {
+namespace {
+
+/// A square of two triangles with one shape.
+io::ShapedMesh square(const std::string& shape) {
+  io::ShapedMesh rig;
+  rig.mesh.points.resize(4, 3);
+  rig.mesh.points << 0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0;
+  rig.mesh.triangles.resize(2, 3);
+  rig.mesh.triangles << 0, 1, 2, 0, 2, 3;
+  PointsF moved = PointsF::Zero(4, 3);
+  moved.row(1) << 0, 0, 0.01F;
+  moved.row(2) << 0, 0.02F, 0;
+  rig.shapes.push_back({shape, moved});
+  return rig;
+}
+
+TEST(RigModel, WeightsMoveALandmarkAsTheyMoveTheSkinBelowIt) {
+  const io::Landmarks landmarks = {{"pogonion", {0.08, 0.04, 0.003}}, {"nasion", {0, 0, 0}}};
+  const FaceModel model = rig_model(square("jawOpen"), landmarks, "rig.glb");
+  BlendShapes weights;
+  weights.names = {"jawOpen"};
+  weights.time_s = {0, 1};
+  weights.weights.resize(2, 1);
+  weights.weights << 0, 0.5;
+  std::vector<std::string> notes;
+  const motion::Motion motion = motion_of(weights, model, notes);
+  const int chin = motion.index_of("pogonion"), nose = motion.index_of("nasion");
+  EXPECT_LT((motion.positions[0].row(chin).transpose() - Vec3(0.08, 0.04, 0)).norm(), 1e-12)
+      << "on the skin";
+  // Barycentric weights of the triangle's corners 0, 1, 2 there: 0.2, 0.4, 0.4.
+  const Vec3 moved = 0.5 * (0.4 * Vec3(0, 0, 0.01) + 0.4 * Vec3(0, 0.02, 0));
+  EXPECT_LT((motion.positions[1].row(chin).transpose() - Vec3(0.08, 0.04, 0) - moved).norm(), 1e-9);
+  EXPECT_LT(motion.positions[1].row(nose).norm(), 1e-12);
+}
+
+TEST(RigModel, KnowsTheNamesThatRigsUse) {
+  const io::Landmarks landmarks = {{"nasion", {0, 0, 0}}};
+  const auto name = [&](const std::string& shape) {
+    return rig_model(square(shape), landmarks, "rig.glb").recorded_units.at(0).arkit;
+  };
+  EXPECT_EQ(name("jawOpen"), "jawOpen");
+  EXPECT_EQ(name("JawOpen"), "jawOpen");
+  EXPECT_EQ(name("mouthSmile_L"), "mouthSmileLeft");
+  EXPECT_EQ(name("EyeBlink_R"), "eyeBlinkRight");
+  EXPECT_EQ(name("browInnerUp_L"), "browInnerUp") << "in which ARKit knows no sides";
+  const auto refused = [&](const io::ShapedMesh& rig, const io::Landmarks& at) {
+    return test::refusal<InputError>([&] { rig_model(rig, at, "rig.glb"); });
+  };
+  EXPECT_EQ(refused(square("PupilDilate_L"), landmarks),
+            "rig.glb: has no morph target with a name of ARKit's, such as jawOpen");
+  EXPECT_EQ(refused(square("jawOpen"), {}), "rig.glb: has no landmarks");
+}
+
+}  // namespace
+}  // namespace hyperex::expression

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/compare_visits.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "hyperex/visits/summary.hpp"
+#include "smiling_face.hpp"
+
+namespace hyperex::visits {
+namespace {
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+const MeasureOverVisits& named(const Comparison& comparison, const std::string& key,
+                               const std::string& side) {
+  for (const MeasureOverVisits& one : comparison.measures)
+    if (one.measure.key == key && one.measure.side == side) return one;
+  throw std::invalid_argument(key);
+}
+
+/// Visits of exact points; jitter is stated as 0 unless it is left unknown.
+Comparison of_smiles(const std::vector<std::vector<Smile>>& visits,
+                     std::optional<double> jitter_m = 0.0, double repetition_m = 1.5e-3) {
+  VisitsFile file = visits_of(visits.size());
+  file.repetition_m = repetition_m;
+  std::vector<std::vector<MeasuredFace>> faces;
+  for (const auto& smiles : visits) {
+    std::vector<MeasuredFace> visit;
+    for (const Smile& smile : smiles) {
+      const MeasuredFace* first = !faces.empty()   ? &faces.front().front()
+                                  : !visit.empty() ? &visit.front()
+                                                   : nullptr;
+      visit.push_back(measure(recording_of(smile), file, jitter_m, first));
+    }
+    faces.push_back(std::move(visit));
+  }
+  return compare(file, std::move(faces));
+}
+
+/// The error that a repetition of 1.5 mm means for a change of one corner's excursion.
+TEST(CompareVisits, RepetitionIsTheIntervalOfAnExcursion) {
+  const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}});
+  const Change& right = *named(two, "corner_excursion", "R").changes.back();
+  EXPECT_NEAR(right.value, -0.4e3 * kWholeSmile.norm(), 0.05);
+  // Exact points leave the head's pose, which is small here, and repetition.
+  EXPECT_NEAR(right.all.high - right.value, 1.5, 0.3);
+  EXPECT_GE(right.all.high - right.value, 1.5);
+  EXPECT_LT(right.measured->high - right.value, 1.0);
+  EXPECT_EQ(right.beyond, Beyond::yes);
+  EXPECT_EQ(right.largest, "repetition");
+  const Change& left = *named(two, "corner_excursion", "L").changes.back();
+  EXPECT_NEAR(left.value, 0, 0.02);
+  EXPECT_EQ(left.beyond, Beyond::no);
+  // Two corners of independent errors.
+  const Change& difference = *named(two, "corner_difference", "").changes.back();
+  EXPECT_NEAR(difference.all.high - difference.value, std::sqrt(2.0) * 1.5, 0.5);
+}
+
+TEST(CompareVisits, WithoutRepetitionMeasurementAloneDecides) {
+  const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}}, 0.0, 0);
+  const Change& right = *named(two, "corner_excursion", "R").changes.back();
+  EXPECT_DOUBLE_EQ(right.all.low, right.measured->low);
+  EXPECT_NE(right.largest, "repetition");
+}
+
+TEST(CompareVisits, UnknownJitterCannotTellOfALargeChange) {
+  const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}}, std::nullopt);
+  const Change& right = *named(two, "corner_excursion", "R").changes.back();
+  EXPECT_EQ(right.beyond, Beyond::cannot_tell);
+  EXPECT_FALSE(right.measured);
+  EXPECT_EQ(named(two, "corner_excursion", "L").changes.back()->beyond, Beyond::no);
+  EXPECT_THAT(summary(two).front(), HasSubstr("cannot be told"));
+}
+
+TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
+  const std::vector<double> before{0.9, 1.0, 1.1}, after{0.5, 0.7};
+  std::vector<std::vector<Smile>> smiles(2);
+  for (const double right : before) smiles[0].push_back({.right = right});
+  for (const double right : after) smiles[1].push_back({.right = right});
+  const Comparison two = of_smiles(smiles);
+  EXPECT_TRUE(two.repetition_measured);
+  const MeasureOverVisits& right = named(two, "corner_excursion", "R");
+  const double whole_mm = 1e3 * kWholeSmile.norm();
+  // Squares about the means: 0.02 and 0.02 of the whole smile, with 3 degrees of freedom.
+  const double deviation = whole_mm * std::sqrt((0.02 + 0.02) / 3);
+  EXPECT_NEAR(right.recorded_repetition, deviation, 0.01 * deviation);
+  EXPECT_NEAR(right.changes.back()->value, -0.4 * whole_mm, 0.05);
+  constexpr double t_of_3 = 3.182446;
+  EXPECT_NEAR(right.changes.back()->all.high - right.changes.back()->value,
+              t_of_3 * deviation * std::sqrt(1.0 / 3 + 1.0 / 2), 0.02 * whole_mm);
+  EXPECT_THAT(repetition_sentence(two), HasSubstr("measured"));
+}
+
+TEST(CompareVisits, SayWhatChangedInSentences) {
+  const std::vector<std::string> sentences = summary(of_smiles({{Smile{}}, {Smile{.right = 0.6}}}));
+  ASSERT_EQ(sentences.size(), 2u);
+  EXPECT_THAT(sentences[0], testing::StartsWith("Right corner of the mouth: 11.5 mm on day 1"));
+  EXPECT_THAT(sentences[0], HasSubstr("4.6 mm less"));
+  EXPECT_THAT(sentences[0], HasSubstr("beyond what"));
+  EXPECT_THAT(sentences[1], HasSubstr("within what"));
+  EXPECT_THAT(summary(of_smiles({{Smile{}}}))[0], HasSubstr("11.5 mm on day 1."));
+}
+
+}  // namespace
+}  // namespace hyperex::visits

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/measured_face.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <numbers>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/metrics/lowpass.hpp"
+#include "smiling_face.hpp"
+
+namespace hyperex::visits {
+namespace {
+using testing::HasSubstr;
+
+double value_of(const MeasuredFace& face, const std::string& key, const std::string& side = "") {
+  return measure_named(key, side).value(face.state);
+}
+
+MeasuredFace exact(const Smile& smile, const MeasuredFace* first = nullptr) {
+  return measure(recording_of(smile), visits_of(2), 0.0, first);
+}
+
+TEST(MeasuredFace, HasTheDirectionsOfTheSmile) {
+  const MeasuredFace face = exact({});
+  // The other corner's share at this one is below 0.2 %.
+  EXPECT_NEAR(value_of(face, "corner_excursion", "R"), 1e3 * kWholeSmile.norm(), 0.05);
+  EXPECT_NEAR(value_of(face, "corner_outward", "L"), 1e3 * kWholeSmile.x(), 0.05);
+  // The axes lean back by some degrees: from the mouth to the eyes is not quite upright.
+  EXPECT_NEAR(std::hypot(value_of(face, "corner_up", "R"), value_of(face, "corner_forward", "R")),
+              1e3 * std::hypot(kWholeSmile.y(), kWholeSmile.z()), 0.05);
+  EXPECT_GT(value_of(face, "corner_up", "R"), 6);
+  EXPECT_LT(value_of(face, "corner_forward", "R"), 0);
+  EXPECT_NEAR(value_of(face, "smile_angle", "R"),
+              std::atan2(value_of(face, "corner_up", "R"), value_of(face, "corner_outward", "R")) *
+                  180 / std::numbers::pi,
+              1e-9);
+  EXPECT_NEAR(value_of(face, "corner_difference"), 0, 0.05);
+  EXPECT_NEAR(value_of(face, "corner_follows", "R"), 100, 1);
+  EXPECT_GE(face.peak_s, 1.0);  // held from 1 to 2.2 s
+  EXPECT_LE(face.peak_s, 2.2 + 1e-9);
+  EXPECT_NEAR(face.half_s, 0.75, 0.02);
+}
+
+TEST(MeasuredFace, ADraggedCornerFollowsTheOtherWay) {
+  const MeasuredFace face = exact({.right = 0, .dragged_right = 0.005});
+  EXPECT_GT(value_of(face, "corner_excursion", "R"), 4.5);
+  EXPECT_LT(value_of(face, "corner_outward", "R"), -4.5);
+  EXPECT_LT(value_of(face, "corner_follows", "R"), 0);
+}
+
+TEST(MeasuredFace, DirectionsAreThoseOfTheFirstHead) {
+  const MeasuredFace first = exact({});
+  motion::Motion turned = recording_of({.right = 0.5});
+  const Eigen::Isometry3d away =
+      Eigen::Translation3d(0.1, -0.2, 0.5) * Eigen::AngleAxisd(1.2, Vec3(1, 2, 3).normalized());
+  for (Points& at : turned.positions)
+    at = ((at * away.linear().transpose()).rowwise() + away.translation().transpose()).eval();
+  const MeasuredFace here = measure(turned, visits_of(2), 0.0, &first),
+                     there = exact({.right = 0.5}, &first);
+  EXPECT_LT(here.head_fit_m, 1e-9);
+  for (const Measure& one : measures()) {
+    const double a = one.value(here.state), b = one.value(there.state);
+    EXPECT_EQ(std::isnan(a), std::isnan(b)) << one.key;
+    if (std::isnan(a)) continue;
+    EXPECT_NEAR(a, b, 1e-6) << one.key << one.side;
+  }
+  EXPECT_NEAR(value_of(here, "corner_along_first", "R"), 0.5e3 * kWholeSmile.norm(), 0.05);
+}
+
+TEST(MeasuredFace, NoiseAfterTheFilterIsThatOfManyDraws) {
+  std::vector<double> time_s;
+  for (int k = 0; k < 60; ++k) time_s.push_back(k < 30 ? k / 30.0 : 1 + (k - 30) / 120.0);
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal;
+  constexpr int draws = 3000;
+  for (const std::size_t sample : {0u, 1u, 29u, 31u, 59u}) {
+    double squares = 0;
+    for (int draw = 0; draw < draws / 3; ++draw) {
+      const Points noise =
+          Points::NullaryExpr(60, 3, [&](Eigen::Index, Eigen::Index) { return normal(random); });
+      squares += metrics::lowpassed(time_s, noise, 6).value.row(Eigen::Index(sample)).squaredNorm();
+    }
+    EXPECT_NEAR(metrics::lowpassed_noise(time_s, sample, 6), std::sqrt(squares / draws), 0.04)
+        << sample;
+  }
+  EXPECT_EQ(metrics::lowpassed_noise(time_s, 5, 0), 1);
+}
+
+TEST(MeasuredFace, JitterThatDoesNotShowIsUnknown) {
+  const motion::Motion recording = recording_of({});
+  const MeasuredFace unknown = measure(recording, visits_of(1), std::nullopt, nullptr);
+  EXPECT_FALSE(unknown.jitter_known);
+  ASSERT_EQ(unknown.remarks.size(), 1u);
+  EXPECT_THAT(unknown.remarks[0], HasSubstr("jitter_mm"));
+  EXPECT_TRUE(measure(recording, visits_of(1), 0.0, nullptr).jitter_known);
+  const MeasuredFace noisy =
+      measure(recording_of({.noise_m = 3e-4}), visits_of(1), std::nullopt, nullptr);
+  EXPECT_TRUE(noisy.jitter_known);
+  EXPECT_NEAR(noisy.jitter_m, 3e-4, 0.5e-4);
+}
+
+TEST(MeasuredFace, AnotherSizeIsRemarked) {
+  const MeasuredFace first = exact({});
+  motion::Motion larger = recording_of({});
+  for (Points& at : larger.positions) at *= 1.05;
+  const MeasuredFace second = measure(larger, visits_of(2), 0.0, &first);
+  ASSERT_EQ(second.remarks.size(), 1u);
+  EXPECT_THAT(second.remarks[0], HasSubstr("may not be comparable"));
+}
+
+TEST(MeasuredFace, NeedsThePointsOfTheExpression) {
+  VisitsFile file = visits_of(1);
+  motion::Motion few = recording_of({});
+  few.names.resize(48);
+  for (Points& at : few.positions) at.conservativeResize(48, 3);
+  EXPECT_THAT([&] { measure(few, file, 0.0, nullptr); },
+              testing::ThrowsMessage<InputError>(HasSubstr("corners of the mouth")));
+  file.expression = *expression_named("eye closure");
+  const MeasuredFace lids = measure(few, file, 0.0, nullptr);
+  EXPECT_TRUE(std::isnan(value_of(lids, "corner_excursion", "R")));
+  EXPECT_GT(value_of(lids, "eye_opening", "R"), 3);
+}
+
+}  // namespace
+}  // namespace hyperex::visits

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/read_visits.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "support/refusal.hpp"
+#include "support/test_file.hpp"
+
+namespace hyperex::visits {
+namespace {
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+class ReadVisits : public testing::Test {
+ protected:
+  void SetUp() override { std::ofstream(folder_ / "a.csv") << "x"; }
+  std::filesystem::path put(const std::string& text) const {
+    std::ofstream(folder_ / "v.toml") << text;
+    return folder_ / "v.toml";
+  }
+  std::string refused(const std::string& text) const {
+    return test::refusal([&] { read_visits(put(text)); });
+  }
+  const TestFolder folder_;
+};
+
+TEST_F(ReadVisits, HasEveryKey) {
+  const VisitsFile file = read_visits(
+      put("patient = \"P-017\"\nexpression = \"pucker\"\nrepetition_mm = 2\nunit = \"cm\"\n"
+          "rigid_points = [\"nasion\"]\n[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n"
+          "note = \"before\"\njitter_mm = 0.2\nend_s = 1.5\n[[visit]]\ndate = \"later\"\n"
+          "recordings = [\"a.csv\", \"a.csv\"]\n"));
+  EXPECT_EQ(file.patient, "P-017");
+  EXPECT_EQ(file.expression.name, "pucker");
+  EXPECT_DOUBLE_EQ(file.repetition_m.value(), 2e-3);
+  EXPECT_EQ(file.unit, io::length_unit("cm"));
+  EXPECT_THAT(file.rigid_points, ElementsAre("nasion"));
+  ASSERT_EQ(file.visits.size(), 2u);
+  EXPECT_EQ(file.visits[0].label, "2026-03-01");
+  EXPECT_EQ(file.visits[0].note, "before");
+  EXPECT_DOUBLE_EQ(file.visits[0].jitter_m.value(), 2e-4);
+  EXPECT_EQ(file.visits[0].end_s, 1.5);
+  EXPECT_EQ(file.visits[1].label, "later");
+  EXPECT_EQ(file.visits[1].recordings.size(), 2u);
+  EXPECT_EQ(
+      read_visits(put("[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n")).expression.name,
+      "smile");
+}
+
+TEST_F(ReadVisits, NamesWhatIsWrongAndWhere) {
+  const std::string visit = "[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n";
+  EXPECT_THAT(refused("patient = 3\n" + visit), HasSubstr("v.toml:1: patient = 3"));
+  EXPECT_THAT(refused("expresion = \"smile\"\n" + visit), HasSubstr("did you mean expression"));
+  EXPECT_THAT(refused("expression = \"grin\"\n" + visit), HasSubstr("\"eye closure\""));
+  EXPECT_THAT(refused("repetition_mm = -1\n" + visit), HasSubstr("from 0 to 20 (mm)"));
+  EXPECT_THAT(refused("unit = \"inch\"\n" + visit), HasSubstr("\"mm\", \"cm\" or \"m\""));
+  EXPECT_THAT(refused("patient = \"x\"\n"), HasSubstr("[[visit]]"));
+  EXPECT_THAT(refused("[[visit]]\nrecording = \"a.csv\"\n"), HasSubstr("2026-03-01"));
+  EXPECT_THAT(refused("[[visit]]\ndate = \"x\"\nrecording = \"none.csv\"\n"),
+              HasSubstr("visit[0].recording = \"none.csv\": expected an existing file"));
+  EXPECT_THAT(refused("[[visit]]\ndate = \"x\"\n"), HasSubstr("either recording"));
+  EXPECT_THAT(refused(visit + "end_s = 0\n"), HasSubstr("a number above 0 (s)"));
+  EXPECT_THAT(refused(visit + visit), HasSubstr("a date that no other visit has"));
+  EXPECT_THAT(refused("patient = \n"), HasSubstr("sound TOML"));
+}
+
+}  // namespace
+}  // namespace hyperex::visits

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a face changes at a corner of the mouth, against base, with its error: a line of the answer and of the table.
+import { element } from '../page/dom';
+import { bandWords, heldAgainst, mm, type CornerChange } from '../replay/corners';
+import { words } from './words';
+
+/** Until error bands are known, changes below this are shown as uncertain, mm. */
+const unsureMm = 0.5;
+
+export function changeLine(change: CornerChange): HTMLElement {
+  const { byMm, exactMm, bandMm, sameWay, weaker, undecided } = change;
+  const sure = bandMm === null ? Math.abs(byMm) >= unsureMm : !undecided;
+  const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
+  const text = words.againstBase(by, byMm > 0);
+  const how = !sameWay ? words.alongBase : sure && weaker && byMm > 0 ? words.dragged : '';
+  const parts = byMm === 0 ? [words.asBase]
+    : [bandMm !== null && !sure ? words.undecidedChange(text) : text, bandMm === null ? '' : words.band(bandWords(change)), how].filter(Boolean);
+  const small = element('small', '', byMm !== 0 && sure ? 'change' : 'same');
+  // A line breaks between the parts, not inside of them.
+  parts.forEach((part, i) => small.append(...(i > 0 ? [' '] : []), element('span', part)));
+  if (bandMm !== null) small.title = words.bandHint;
+  return small;
+}

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// "What if …": another face of base, or another change of the face shown, chosen from one list: weaker muscles by side,
+// branch of the facial nerve or name, presets with their sources, a copy.
+import { at } from '../page/dom';
+import { upper } from '../page/format';
+import { menuOf, type Menu } from '../page/menu';
+import { briefName } from './brief_name';
+import { fillChooser, usualPercent, type Choice } from './chooser';
+import type { Edits } from './edits';
+import { isRecord, type Preset } from './messages';
+import type { StudioState } from './studio_state';
+import { tryChange } from './try_change';
+import { words } from './words';
+
+const gainKey = 'muscles.gain';
+type Take = (gain: string, percent: number) => void;
+
+export class WhatIf {
+  presets: Preset[] = [];
+  readonly menu: Menu;
+
+  /** `strengthChanged`: a face was made with another strength of what muscles.gain so names. */
+  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly strengthChanged: (gain: string) => void) {
+    this.menu = menuOf(at('what-if'), words.whatIf, (sheet, close) => {
+      const [sides, ...muscles] = this.strengths((gain, percent) => tryChange(() => this.addWeaker(gain, percent)));
+      fillChooser(sheet, [...sides, ...this.presetChoices(), ...muscles.flat(), this.copy()], usualPercent, close);
+    });
+  }
+
+  /** Fills a sheet with what else the face shown may change; `instead`: in the place of that strength. */
+  fillChange(sheet: HTMLElement, close: () => void, instead: string | null): void {
+    const value = this.edits.value(gainKey);
+    const gains = isRecord(value) ? (value as Record<string, number>) : {};
+    const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : usualPercent;
+    const take: Take = (gain, percent) => {
+      const { [instead ?? '']: _before, ...kept } = gains;
+      void this.edits.commit({ [gainKey]: { ...kept, [gain]: percent / 100 } });
+    };
+    fillChooser(sheet, this.strengths(take).flat(), usual, close);
+  }
+
+  /** Moves the keyboard focus to a face's tab. */
+  private focus(face: number): void {
+    at('tabs').querySelector<HTMLElement>(`.tab-name[data-face="${face}"]`)?.focus();
+  }
+
+  private async addWeaker(gain: string, percent: number): Promise<void> {
+    const values = this.state.valuesOf(0);
+    const base = values[gainKey];
+    const changes = { [gainKey]: { ...(isRecord(base) ? base : {}), [gain]: Number((percent / 100).toFixed(3)) } };
+    const face = await this.edits.addFace(briefName(changes, values, this.state.muscles) || words.newVariant, 0);
+    this.focus(face);
+    await this.edits.change(face, changes);
+    this.strengthChanged(gain);
+  }
+
+  /** What muscles.gain may name: sides with branches, and single muscles. */
+  private strengths(take: Take): Choice[][] {
+    const { muscles } = this.state;
+    const both = (group: string, stem: string, called: (side: string) => string): Choice[] =>
+      (['R', 'L'] as const).map((side) => ({
+        group, value: `${stem}_${side}`, text: upper(called(words.sideNames[side])), detail: words.atPercent, strength: true,
+        take: (percent) => take(`${stem}_${side}`, percent),
+      }));
+    const branches = [...new Set(muscles.map(({ branch }) => branch))].flatMap((branch) => {
+      const brief = words.branchNames[branch] ?? upper(branch);
+      return both(words.branches, branch, (side) => words.ofSide(words.weakerBranch(brief), side));
+    });
+    return [
+      [...both(words.wholeSide, 'side', words.weakerSide), ...branches],
+      muscles.flatMap(({ name, latin }) => both(words.weakerMuscles, name, (side) => words.ofSide(latin, side))),
+    ];
+  }
+
+  /** Of base: beside other changes, of the muscles for example, those of the preset would not hold. */
+  private presetChoices(): Choice[] {
+    return this.presets.map(({ name, summary, source, assumed }) => {
+      const stem = name.replace(/_[LR]$/, '');
+      const plain = stem.replaceAll('_', ' ');
+      const called = name === stem ? plain : words.ofSide(plain, words.sideNames[name.slice(-1) as 'L' | 'R']);
+      return {
+        group: words.presetsTitle, value: name, text: upper(called), detail: summary, says: words.presetSource(source, assumed),
+        take: () => tryChange(async () => this.focus(await this.edits.addFace(called, 0, name))),
+      };
+    });
+  }
+
+  private copy(): Choice {
+    return {
+      group: words.emptyTitle, value: 'copy', text: words.emptyAdd, detail: '',
+      take: () => tryChange(async () => this.focus(await this.edits.addFace(words.newVariant, this.state.edited))),
+    };
+  }
+}

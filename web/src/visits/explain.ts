@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What was recorded at each visit, and how the table is read.
+import { element } from '../page/dom';
+import type { Manifest, Visit } from './manifest';
+
+const mm = (value: number | null): string => (value === null ? 'not known' : `${value.toFixed(1)} mm`);
+
+function recordedWords({ recordings, peak_s, jitter_mm, head_fit_mm, eye_distance_mm }: Visit): string {
+  return (
+    `${recordings.join(', ')}; peak at ${peak_s.toFixed(2)} s; outer eye corners ${mm(eye_distance_mm)} apart; ` +
+    `${head_fit_mm === null ? '' : `head fitted within ${mm(head_fit_mm)}; `}tracking jitter ${mm(jitter_mm)}.`
+  );
+}
+
+/** A table of more visits has no column for measurement alone, nor has paper. */
+const changeWords = (count: number): (string | HTMLElement)[] => [
+  'Change: the later visit less the first. ',
+  ...(count <= 3 ? [element('span', 'By measurement alone: its interval without repetition. ', 'measured')] : []),
+  'Yes: measurement and repetition together do not make such a change. No: they can. Cannot tell: it is beyond repetition, but the error of measurement is not known. ' +
+    'Last column: the largest part of the change’s interval. ',
+];
+
+export function explain(host: HTMLElement, { visits, repetition, peak_by, measures }: Manifest): void {
+  const how = element('p');
+  how.append(
+    `Each visit’s column has the value at the peak (by the ${peak_by}) and in brackets its 95 % interval by measurement alone. `,
+    ...(visits.length > 1 ? changeWords(visits.length) : []),
+    `Of ${measures.length} measures that did not change, one in 20 is outside its interval by chance. Curves begin to count where half of the way to the peak is reached. R and L are the person’s own sides.`,
+  );
+  const list = element('ul');
+  for (const visit of visits) {
+    const item = element('li');
+    item.append(element('b', visit.label), ` ${recordedWords(visit)}`);
+    list.append(item);
+  }
+  host.append(element('p', repetition.text), how, element('h2', 'What was recorded'), list);
+}

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the program writes into the page. V visits, in the order of time; changes are against the first.
+
+export interface Visit {
+  label: string;
+  note: string;
+  recordings: string[];
+  /** Of the first recording's own clock. */
+  peak_s: number;
+  /** null: not known. */
+  jitter_mm: number | null;
+  /** How well the head fits that of the first recording; null: it is the first. */
+  head_fit_mm: number | null;
+  /** null: not measured. */
+  eye_distance_mm: number | null;
+  /** The face at the peak, 3:4, with R and L drawn in it; empty: none. */
+  picture: string;
+}
+
+/** Distance of the corners of the mouth from rest; time 0 is where the movement first reaches half of
+ * its peak, null is not measured. */
+export interface VisitCurve {
+  visit: number;
+  recording: number;
+  time_s: number[];
+  right_mm: (number | null)[];
+  left_mm: (number | null)[];
+}
+
+/** With its interval of 95 % by measurement alone; null: not known. */
+export interface Value {
+  value: number;
+  low: number | null;
+  high: number | null;
+}
+
+export type Beyond = 'yes' | 'no' | 'cannot tell';
+export type Part = 'repetition' | 'jitter' | 'head pose' | 'axes';
+
+export interface Change {
+  value: number;
+  /** The interval of 95 %, repetition included; its measurement's part counts as 0 where that is not known. */
+  low: number;
+  high: number;
+  /** The interval by measurement alone; null: not known. */
+  low_measured: number | null;
+  high_measured: number | null;
+  beyond: Beyond;
+  /** The largest part of the interval. */
+  largest: Part;
+}
+
+export interface Measure {
+  key: string;
+  words: string;
+  side: 'R' | 'L' | '';
+  unit: 'mm' | 'degrees' | '%';
+  /** One for each visit; null: not measured. */
+  values: (Value | null)[];
+  /** One for each visit; the first is null. */
+  changes: (Change | null)[];
+}
+
+export interface Manifest {
+  version: 1;
+  program: string;
+  /** May be empty. */
+  patient: string;
+  expression: string;
+  /** What the peak was found by: "corners of the mouth". */
+  peak_by: string;
+  repetition: { mm: number; source: 'default' | 'stated' | 'recordings'; text: string };
+  visits: Visit[];
+  curves: VisitCurve[];
+  measures: Measure[];
+  summary: string[];
+  notes: string[];
+  caveat: string;
+}
