@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/malformed.hpp"
+#include "support/sanitizers.hpp"
 
 namespace hyperex {
 namespace {
@@ -14,7 +15,7 @@ using testing::HasSubstr;
 class TooLittleMemory : public ProgramTest {
  protected:
   void SetUp() override {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if HYPEREX_SANITIZED
     GTEST_SKIP() << "a sanitizer takes more addresses than any limit leaves, and allocates itself";
 #endif
     ProgramTest::SetUp();

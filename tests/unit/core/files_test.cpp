@@ -15,6 +15,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "support/refusal.hpp"
+#include "support/sanitizers.hpp"
 #include "support/test_file.hpp"
 
 namespace hyperex {
@@ -86,7 +87,7 @@ TEST_F(Files, ReadingNamesWhatIsWrong) {
 }
 
 TEST_F(Files, AreReadWholeOrNotAtAll) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if HYPEREX_SANITIZED
   GTEST_SKIP() << "a sanitizer takes more addresses than any limit leaves";
 #endif
   constexpr std::size_t size = std::size_t(1) << 30;

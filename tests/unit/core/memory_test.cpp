@@ -11,12 +11,10 @@
 #include <memory>
 #include <vector>
 
-#ifndef __has_feature
-#define __has_feature(name) 0
-#endif
+#include "support/sanitizers.hpp"
+
 // Sanitizers keep freed memory themselves.
-#if !defined(__GLIBC__) || defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__) || \
-    __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#if !defined(__GLIBC__) || HYPEREX_SANITIZED
 #define HYPEREX_OTHER_ALLOCATOR
 #endif
 

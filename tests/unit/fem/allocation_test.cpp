@@ -11,8 +11,9 @@
 #include "hyperex/fem/time/finite_newton.hpp"
 #include "hyperex/fem/time/newmark.hpp"
 #include "support/fem_support.hpp"
+#include "support/sanitizers.hpp"
 
-#if defined(__GLIBC__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+#if defined(__GLIBC__) && !HYPEREX_SANITIZED
 #define HYPEREX_COUNTS_ALLOCATIONS 1
 
 namespace {

@@ -14,6 +14,7 @@
 
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/one_thread.hpp"
+#include "support/sanitizers.hpp"
 
 namespace hyperex {
 namespace {
@@ -58,7 +59,7 @@ void multiply_without_memory() {
 }
 
 TEST(BlasMemory, IsTakenForAllThreadsBeforehand) {
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#if HYPEREX_SANITIZED
   GTEST_SKIP() << "a sanitizer takes memory itself";
 #endif
   testing::FLAGS_gtest_death_test_style = "threadsafe";
