@@ -79,6 +79,7 @@ void add_subcommands(CLI::App& program) {
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
   hyperex::cli::add_visits(program);
+  hyperex::cli::add_estimate(program);
   hyperex::cli::add_track(program);
   hyperex::cli::add_rig(program);
   hyperex::cli::add_presets(program);

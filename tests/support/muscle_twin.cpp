@@ -54,7 +54,10 @@ std::string group_of(const std::string& muscle) {
 
 TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, double young_factor,
                      const std::vector<TwinChange>& changes)
-    : changes_(changes), half_(face.options.muscles.half), young_factor_(young_factor) {
+    : changes_(changes),
+      half_(face.options.muscles.half),
+      young_factor_(young_factor),
+      jaw_(face.landmarks) {
   rest_.resize(68, 3);
   for (int p = 0; p < 68; ++p) rest_.row(p) = face.landmarks.at(face::ibug(p)).transpose();
   carrier_ =
@@ -119,17 +122,21 @@ Points TwinTruth::moved(const Tissue& tissue, const Eigen::VectorXd& force) cons
 }
 
 simulate::AlignedMotion TwinTruth::recorded(const Activations& activations, double noise_m,
-                                            unsigned seed) const {
+                                            unsigned seed, std::size_t change,
+                                            const simulate::JawPose& jaw) const {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   simulate::AlignedMotion out;
   out.motion.names = out.common = face::all_ibug();
   out.rest = rest_;
+  const auto gains = change == 0 ? std::vector<simulate::MuscleGain>{} : changes_[change - 1].gains;
   for (int k = 0; k < kSamples; ++k) {
     const double course = k < kComing ? 0.5 - 0.5 * std::cos(std::numbers::pi * k / kComing) : 1;
     Activations now = activations;
     for (auto& [muscle, a] : now) a *= course;
-    Points at = rest_ + moved(tissues_.front(), force(now, {}));
+    const Eigen::VectorXd by =
+        force(now, gains) + muscles_->jaw_force() * jaw_.motion(course * jaw);
+    Points at = rest_ + moved(tissues_[change], by);
     if (k > 0) at += noise_m * Points::NullaryExpr(68, 3, [&] { return normal(random); });
     out.motion.time_s.push_back(k / kRate_hz);
     out.motion.positions.push_back(at);

@@ -11,6 +11,7 @@
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
+#include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
 #include "hyperex/simulate/options.hpp"
 
@@ -52,9 +53,11 @@ class TwinTruth {
             const std::vector<TwinChange>& changes);
 
   /// The 68 landmarks while the expression builds up in a third of a second and stays, with noise
-  /// of standard deviation `noise_m` per coordinate.
-  simulate::AlignedMotion recorded(const Activations& activations, double noise_m,
-                                   unsigned seed) const;
+  /// of standard deviation `noise_m` per coordinate. `change`: 0 for base, else 1 + an index of the
+  /// changes. `jaw`: its pose at the peak.
+  simulate::AlignedMotion recorded(const Activations& activations, double noise_m, unsigned seed,
+                                   std::size_t change = 0,
+                                   const simulate::JawPose& jaw = simulate::JawPose::Zero()) const;
   /// In base and after each change.
   std::vector<Corners> corners(const Activations& activations) const;
   const std::vector<muscles::MuscleLine>& lines() const { return muscles_->lines(); }
@@ -71,6 +74,7 @@ class TwinTruth {
 
   const std::vector<TwinChange>& changes_;
   double half_, young_factor_;
+  simulate::JawKinematics jaw_;
   Points rest_;
   simulate::CarrierMatrix carrier_;
   std::unique_ptr<simulate::MuscleModel> muscles_;

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/estimate/estimate.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+#include <memory>
+
+#include "commands.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/output_file.hpp"
+#include "hyperex/estimate/words.hpp"
+#include "hyperex/scene/scene.hpp"
+
+namespace hyperex::cli {
+namespace {
+namespace fs = std::filesystem;
+
+struct EstimateOptions {
+  fs::path scene, out;
+  std::vector<std::string> overrides;
+  estimate::Request request;
+};
+
+void run(const EstimateOptions& options) {
+  scene::Scene scene = scene::read_scene(options.scene, options.overrides);
+  std::vector<fs::path> inputs{options.scene, scene.scan.source.file, scene.motion.source.file};
+  inputs.insert(inputs.end(), options.request.recordings.begin(), options.request.recordings.end());
+  check_outputs({options.out}, inputs);
+  const estimate::Estimate found = estimate::estimate(
+      scene, options.request, [](const std::string& stage) { spdlog::info("{}", stage); });
+  for (const std::string& remark : found.remarks) spdlog::warn("{}", remark);
+  for (const estimate::Observation& seen : found.recordings)
+    std::cout << fmt::format("{}: peak at {:.2f} s\n", seen.name, seen.time_s);
+  std::cout << fmt::format("{} points; observed less modelled {:.2f} mm rms\n\n",
+                           found.points.size(), 1e3 * found.rms_m);
+  for (const std::string& sentence : estimate::sentences(found)) std::cout << sentence << '\n';
+  std::cout << "Both sides are assumed to be tried alike. This is no medical device.\n";
+  if (!options.out.empty())
+    write_file_atomically(options.out, [&](std::ostream& out) { out << estimate::as_json(found); });
+}
+
+}  // namespace
+
+void add_estimate(CLI::App& program) {
+  auto options = std::make_shared<EstimateOptions>();
+  CLI::App* command = program.add_subcommand(
+      "estimate",
+      "How much stiffer one part of the tissue is than another, and how strongly a muscle acts, "
+      "from recordings of a face: each answer has a 95 % interval, or says that the recordings "
+      "cannot tell and which further expression would help most (docs/uncertainty.md).");
+  command->add_option("SCENE", options->scene, "The scene (TOML): scan and first recording")
+      ->required();
+  command->add_option("--recording", options->request.recordings,
+                      "A recording of another expression of the same face (CSV, TRC); can be "
+                      "repeated");
+  command->add_option("--stiffness", options->request.stiffness,
+                      "A ratio to find: cheek_L:cheek_R, or cheek_L (to what the scene has there), "
+                      "or tissue.region[0] (a scar or painted part of the scene); can be repeated");
+  command->add_option("--gain", options->request.gains,
+                      "A muscle, or a branch of the facial nerve on one side, whose strength to "
+                      "find: zyg_major_R, zygomatic_R; can be repeated");
+  command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated");
+  command->add_option("--out", options->out, "Write everything here (.json)");
+  command->footer(
+      "Example:\n  hyperex estimate patient.toml --recording pucker.csv --stiffness "
+      "cheek_L:cheek_R");
+  command->callback([options] { run(*options); });
+}
+
+}  // namespace hyperex::cli

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hyperex/estimate/assumptions.hpp"
+#include "hyperex/estimate/intervals.hpp"
+#include "hyperex/estimate/observation.hpp"
+#include "hyperex/scene/scene.hpp"
+
+namespace hyperex::estimate {
+
+/// What the user asks.
+struct Request {
+  /// Recordings of the same face beside the scene's, each of another expression: as motion.file.
+  std::vector<std::filesystem::path> recordings;
+  /// Parts of the tissue: "cheek_L:cheek_R" is the ratio of two, "cheek_L" that of a part to what
+  /// the scene has there, "tissue.region[0]" that of an entry of the scene, as a scar or a painted
+  /// part.
+  std::vector<std::string> stiffness;
+  std::vector<std::string> gains;  ///< "zygomatic_R", as muscles.gain
+  Assumptions assumptions;
+};
+
+/// One answer.
+struct Finding {
+  enum class Kind { ratio, gain } kind = Kind::ratio;
+  std::string name;
+  double value = 1;
+  Range interval;  ///< 95 %, by profile likelihood
+  Range laplace;   ///< 95 %, from the curvature
+  /// Whether the interval is narrow enough to be an answer: a ratio known to a factor of
+  /// kWidestRatio from end to end, a gain to kWidestGain.
+  bool determined = false;
+  std::vector<ErrorPart> parts;  ///< largest first
+  /// The standard expression whose recording is expected to narrow the interval most, and to what;
+  /// empty where none narrows it by a tenth.
+  std::string further;
+  Range further_interval;
+};
+inline constexpr double kWidestRatio = 2.5, kWidestGain = 0.8;
+
+/// Two quantities that move the observed points alike.
+struct Alike {
+  std::string a, b;
+  double cosine = 0;  ///< between the points' derivatives, in units of their errors
+};
+inline constexpr double kAlike = 0.9;
+
+struct Estimate {
+  std::vector<Finding> findings;  ///< ratios, then gains, as they were asked for
+  std::vector<Alike> alike;       ///< pairs whose |cosine| is kAlike or more
+  std::vector<Observation> recordings;
+  std::vector<std::string> points;
+  double rms_m = 0;                  ///< observed less modelled, of a coordinate
+  double error_scale = 1;            ///< Mode::error_scale
+  std::vector<std::string> remarks;  ///< sentences
+};
+
+/// Finds ratios of stiffness and gains of muscles that explain recordings of a face. The muscles'
+/// forces are free but for their priors; both sides are assumed to be tried alike (posterior.hpp).
+/// Throws InputError for a request that names nothing, an unknown part or muscle, and for absolute
+/// stiffness, which motion does not determine. `stage`: called as each stage begins.
+Estimate estimate(const scene::Scene& scene, const Request& request,
+                  const std::function<void(const std::string&)>& stage = {});
+
+}  // namespace hyperex::estimate

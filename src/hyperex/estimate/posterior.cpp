@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/estimate/posterior.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "hyperex/muscles/bounded_least_squares.hpp"
+
+namespace hyperex::estimate {
+namespace {
+
+constexpr int kMostIterations = 40, kMostHalvings = 6;
+/// A step of less than this (activations, logarithms, gains) ends the iteration.
+constexpr double kSmallStep = 1e-3;
+/// How often the scale of the model's errors is found anew.
+constexpr int kScaleRounds = 3;
+
+}  // namespace
+
+Posterior::Posterior(FaceModel& face, std::vector<Observation> observations,
+                     const Assumptions& assumptions, std::function<void()> between)
+    : face_(face),
+      observations_(std::move(observations)),
+      model_(face, {.ratios = face.responses.unknowns() - 1,
+                    .gains = Eigen::Index(face.acts.size()),
+                    .muscles = Eigen::Index(face.responses.lines().size()),
+                    .recordings = Eigen::Index(observations_.size())}),
+      assumptions_(assumptions),
+      between_(std::move(between)) {}
+
+Eigen::VectorXd Posterior::start() const {
+  const Unknowns& u = model_.unknowns();
+  Eigen::VectorXd x = Eigen::VectorXd::Zero(u.all());
+  x.segment(u.gain(0), u.gains).setOnes();
+  return x;
+}
+
+Eigen::MatrixXd Posterior::prior_precision(const Eigen::VectorXd& x) const {
+  const Unknowns& u = model_.unknowns();
+  const Assumptions& a = assumptions_;
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(u.all(), u.all());
+  const auto set = [&](Eigen::Index from, Eigen::Index count, double sigma) {
+    out.diagonal().segment(from, count).setConstant(1 / (sigma * sigma));
+  };
+  set(u.ratio(0), u.ratios, a.log_ratio);
+  set(u.gain(0), u.gains, a.gain);
+  set(u.tissue(), 1, a.log_tissue);
+  for (int way = 0; way < 2; ++way) set(u.lines(way), u.muscles, a.line_m / std::sqrt(2.0));
+  const MusclePrior& known = face_.prior;
+  const auto pairs = Eigen::Index(known.left.size());
+  for (Eigen::Index e = 0; e < u.recordings; ++e) {
+    const Eigen::Index first = u.activations(e);
+    Eigen::MatrixXd mean = known.sigma.asDiagonal() * known.together * known.sigma.asDiagonal();
+    Eigen::MatrixXd difference(pairs, pairs);
+    for (Eigen::Index i = 0; i < pairs; ++i)
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        const auto effort = [&](Eigen::Index k) {
+          return 0.5 * std::abs(x[first + known.left[std::size_t(k)]] +
+                                x[first + known.right[std::size_t(k)]]);
+        };
+        difference(i, j) = a.side * a.side * effort(i) * effort(j);
+        if (i == j)
+          difference(i, j) += std::pow(a.muscle * effort(i), 2) + std::pow(a.least_difference, 2);
+      }
+    // With the mean (L + R) / 2 and the difference (L - R) / 2.
+    const Eigen::MatrixXd p = mean.inverse() / 4, q = difference.inverse() / 4;
+    for (Eigen::Index i = 0; i < pairs; ++i)
+      for (Eigen::Index j = 0; j < pairs; ++j) {
+        const Eigen::Index li = first + known.left[std::size_t(i)],
+                           lj = first + known.left[std::size_t(j)],
+                           ri = first + known.right[std::size_t(i)],
+                           rj = first + known.right[std::size_t(j)];
+        out(li, lj) += p(i, j) + q(i, j);
+        out(ri, rj) += p(i, j) + q(i, j);
+        out(li, rj) += p(i, j) - q(i, j);
+        out(ri, lj) += p(i, j) - q(i, j);
+      }
+    const double sigma[6] = {known.opening_rad, known.turn_rad, known.tilt_rad,
+                             known.slide_m,     known.slide_m,  known.slide_m};
+    for (int k = 0; k < 6; ++k) set(u.jaw(e) + k, 1, sigma[k]);
+    const Observation& seen = observations_[std::size_t(e)];
+    set(u.head(e), 3, seen.head_turn_rad);
+    set(u.head(e) + 3, 3, seen.head_shift_m);
+  }
+  return out;
+}
+
+Eigen::LLT<Eigen::MatrixXd> Posterior::errors(const Observation& observation, double scale) const {
+  const Assumptions& a = assumptions_;
+  const Eigen::Index points = face_.places.rows();
+  Eigen::VectorXd size(points);
+  for (Eigen::Index p = 0; p < points; ++p)
+    size[p] =
+        scale * (a.misfit_m + a.misfit_share * observation.displacement_m.segment<3>(3 * p).norm());
+  Eigen::MatrixXd out =
+      observation.noise_m * observation.noise_m * Eigen::MatrixXd::Identity(3 * points, 3 * points);
+  for (Eigen::Index p = 0; p < points; ++p)
+    for (Eigen::Index q = 0; q < points; ++q) {
+      const double apart = (face_.places.row(p) - face_.places.row(q)).squaredNorm();
+      const double value =
+          size[p] * size[q] * std::exp(-apart / (2 * a.misfit_length_m * a.misfit_length_m));
+      for (int axis = 0; axis < 3; ++axis) out(3 * p + axis, 3 * q + axis) += value;
+    }
+  // Points that coincide would make it singular where there is no noise.
+  out.diagonal().array() += 1e-12;
+  return out.llt();
+}
+
+Eigen::MatrixXd Posterior::information(const Mode& mode) const {
+  return mode.hessian - prior_precision(mode.x);
+}
+
+Eigen::MatrixXd Posterior::information(const Eigen::MatrixXd& derivative,
+                                       const Observation& observation, double error_scale) const {
+  const Eigen::MatrixXd weighed = errors(observation, error_scale).matrixL().solve(derivative);
+  return weighed.transpose() * weighed;
+}
+
+double Posterior::cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precision, double scale) {
+  const Eigen::VectorXd off = x - start();
+  double out = 0.5 * off.dot(precision * off);
+  for (std::size_t e = 0; e < observations_.size(); ++e) {
+    const Eigen::VectorXd residual =
+        observations_[e].displacement_m - model_.displacement(x, Eigen::Index(e));
+    out += 0.5 * errors(observations_[e], scale).matrixL().solve(residual).squaredNorm();
+  }
+  return out;
+}
+
+Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale) {
+  const Unknowns& u = model_.unknowns();
+  Eigen::VectorXd lower =
+      Eigen::VectorXd::Constant(u.all(), -std::numeric_limits<double>::infinity());
+  lower.segment(u.gain(0), u.gains).setZero();
+  for (Eigen::Index e = 0; e < u.recordings; ++e)
+    for (Eigen::Index m = 0; m < u.muscles; ++m)
+      if (!face_.prior.tone[std::size_t(m)]) lower[u.activations(e) + m] = 0;
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index i = 0; i < u.all(); ++i)
+    if (!held[std::size_t(i)]) free.push_back(i);
+  Mode mode;
+  for (;; ++mode.iterations) {
+    if (between_) between_();
+    const Eigen::MatrixXd precision = prior_precision(x);
+    Eigen::MatrixXd h = precision;
+    Eigen::VectorXd gradient = precision * (x - start());
+    mode.cost = 0.5 * (x - start()).dot(gradient);
+    double squares = 0;
+    Eigen::Index coordinates = 0;
+    for (std::size_t e = 0; e < observations_.size(); ++e) {
+      const auto error = errors(observations_[e], scale);
+      const Eigen::VectorXd plain =
+          observations_[e].displacement_m - model_.displacement(x, Eigen::Index(e));
+      const Eigen::VectorXd residual = error.matrixL().solve(plain);
+      const Eigen::MatrixXd derivative =
+          error.matrixL().solve(model_.derivative(x, Eigen::Index(e)));
+      h.noalias() += derivative.transpose() * derivative;
+      gradient.noalias() -= derivative.transpose() * residual;
+      mode.cost += 0.5 * residual.squaredNorm();
+      squares += plain.squaredNorm();
+      coordinates += plain.size();
+    }
+    mode.rms_m = std::sqrt(squares / double(coordinates));
+    mode.hessian = h;
+    const Eigen::MatrixXd h_free = h(free, free);
+    Eigen::VectorXd next = x(free);
+    const Eigen::VectorXd right = h_free * x(free) - gradient(free);
+    muscles::bounded_least_squares(h_free, right, lower(free), next);
+    const Eigen::VectorXd step = next - x(free);
+    double size = 0;
+    for (std::size_t i = 0; i < free.size(); ++i)
+      if (free[i] < u.lines(0) || free[i] >= u.shared())
+        size = std::max(size, std::abs(step[Eigen::Index(i)]));
+    if (size < kSmallStep || mode.iterations == kMostIterations) break;
+    double share = 1;
+    Eigen::VectorXd tried = x;
+    for (int halving = 0; halving < kMostHalvings; ++halving, share /= 2) {
+      tried(free) = x(free) + share * step;
+      if (cost(tried, precision, scale) < mode.cost) break;
+    }
+    x = tried;
+  }
+  mode.x = x;
+  mode.error_scale = scale;
+  mode.fixed = held;
+  for (Eigen::Index i = 0; i < u.all(); ++i)
+    if (x[i] <= lower[i]) mode.fixed[std::size_t(i)] = true;
+  return mode;
+}
+
+Mode Posterior::find(const Eigen::VectorXd& start,
+                     const std::vector<std::pair<Eigen::Index, double>>& held, double error_scale) {
+  const Unknowns& u = model_.unknowns();
+  Eigen::VectorXd x = start;
+  std::vector<char> fixed(std::size_t(u.all()), false);
+  for (const auto& [index, value] : held) {
+    x[index] = value;
+    fixed[std::size_t(index)] = true;
+  }
+  double scale = error_scale > 0 ? error_scale : 1;
+  Mode mode = minimum(x, fixed, scale);
+  for (int round = 0; error_scale <= 0 && round < kScaleRounds; ++round) {
+    // Degrees of freedom: the coordinates less what the unknowns take up.
+    std::vector<Eigen::Index> free;
+    for (Eigen::Index i = 0; i < u.all(); ++i)
+      if (!mode.fixed[std::size_t(i)]) free.push_back(i);
+    const Eigen::MatrixXd all = information(mode);
+    const Eigen::MatrixXd taken = mode.hessian(free, free).llt().solve(all(free, free));
+    double squares = 0, coordinates = 0;
+    for (std::size_t e = 0; e < observations_.size(); ++e) {
+      const Eigen::VectorXd plain =
+          observations_[e].displacement_m - model_.displacement(mode.x, Eigen::Index(e));
+      squares += errors(observations_[e], scale).matrixL().solve(plain).squaredNorm();
+      coordinates += double(plain.size());
+    }
+    const double freedom = std::max(1.0, coordinates - taken.trace());
+    const double next = std::max(1.0, scale * std::sqrt(squares / freedom));
+    if (std::abs(next - scale) < 0.05 * scale) break;
+    scale = next;
+    mode = minimum(mode.x, fixed, scale);
+  }
+  return mode;
+}
+
+}  // namespace hyperex::estimate
