@@ -53,15 +53,16 @@ std::string group_of(const std::string& muscle) {
 }  // namespace
 
 TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, double young_factor,
-                     const std::vector<TwinChange>& changes)
+                     const std::vector<TwinChange>& changes, std::vector<std::string> points)
     : changes_(changes),
       half_(face.options.muscles.half),
       young_factor_(young_factor),
-      jaw_(face.landmarks) {
-  rest_.resize(68, 3);
-  for (int p = 0; p < 68; ++p) rest_.row(p) = face.landmarks.at(face::ibug(p)).transpose();
-  carrier_ =
-      simulate::carriers(*face.mesh, simulate::skin_places(*face.mesh, face::all_ibug(), rest_));
+      jaw_(face.landmarks),
+      points_(std::move(points)) {
+  rest_.resize(Eigen::Index(points_.size()), 3);
+  for (Eigen::Index p = 0; p < rest_.rows(); ++p)
+    rest_.row(p) = face.landmarks.at(points_[std::size_t(p)]).transpose();
+  carrier_ = simulate::carriers(*face.mesh, simulate::skin_places(*face.mesh, points_, rest_));
   tissues_.push_back(tissue(face, {}));
   for (const TwinChange& change : changes) tissues_.push_back(tissue(face, change.young_factor));
   // At activation 1 a muscle moves its own tissue by 10 mm, whatever the stiffness.
@@ -127,7 +128,7 @@ simulate::AlignedMotion TwinTruth::recorded(const Activations& activations, doub
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
   simulate::AlignedMotion out;
-  out.motion.names = out.common = face::all_ibug();
+  out.motion.names = out.common = points_;
   out.rest = rest_;
   const auto gains = change == 0 ? std::vector<simulate::MuscleGain>{} : changes_[change - 1].gains;
   for (int k = 0; k < kSamples; ++k) {
@@ -137,7 +138,7 @@ simulate::AlignedMotion TwinTruth::recorded(const Activations& activations, doub
     const Eigen::VectorXd by =
         force(now, gains) + muscles_->jaw_force() * jaw_.motion(course * jaw);
     Points at = rest_ + moved(tissues_[change], by);
-    if (k > 0) at += noise_m * Points::NullaryExpr(68, 3, [&] { return normal(random); });
+    if (k > 0) at += noise_m * Points::NullaryExpr(rest_.rows(), 3, [&] { return normal(random); });
     out.motion.time_s.push_back(k / kRate_hz);
     out.motion.positions.push_back(at);
   }
@@ -149,7 +150,11 @@ std::vector<Corners> TwinTruth::corners(const Activations& activations) const {
   for (std::size_t t = 0; t < tissues_.size(); ++t) {
     const auto& gains = t == 0 ? std::vector<simulate::MuscleGain>{} : changes_[t - 1].gains;
     const Points by = moved(tissues_[t], force(activations, gains));
-    out.push_back({1e3 * by.row(kLeftCorner).norm(), 1e3 * by.row(kRightCorner).norm()});
+    const auto way_mm = [&](int corner) {
+      const auto at = std::find(points_.begin(), points_.end(), face::ibug(corner));
+      return 1e3 * by.row(at - points_.begin()).norm();
+    };
+    out.push_back({way_mm(kLeftCorner), way_mm(kRightCorner)});
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
@@ -48,11 +49,13 @@ struct TwinAnswer {
 class TwinTruth {
  public:
   /// `muscles` may differ in place from the program's, and `young_factor` may make the tissue
-  /// differ from what the program assumes. `changes` must outlive this object.
+  /// differ from what the program assumes. `changes` must outlive this object. `points`:
+  /// landmarks that are recorded; the corners of the mouth among them.
   TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, double young_factor,
-            const std::vector<TwinChange>& changes);
+            const std::vector<TwinChange>& changes,
+            std::vector<std::string> points = face::all_ibug());
 
-  /// The 68 landmarks while the expression builds up in a third of a second and stays, with noise
+  /// The points while the expression builds up in a third of a second and stays, with noise
   /// of standard deviation `noise_m` per coordinate. `change`: 0 for base, else 1 + an index of the
   /// changes. `jaw`: its pose at the peak.
   simulate::AlignedMotion recorded(const Activations& activations, double noise_m, unsigned seed,
@@ -75,6 +78,7 @@ class TwinTruth {
   const std::vector<TwinChange>& changes_;
   double half_, young_factor_;
   simulate::JawKinematics jaw_;
+  std::vector<std::string> points_;
   Points rest_;
   simulate::CarrierMatrix carrier_;
   std::unique_ptr<simulate::MuscleModel> muscles_;

@@ -17,7 +17,7 @@ struct Assumptions {
   double least_difference = 0.005;  ///< of an activation, whatever its size
   /// Errors of the model at a point: misfit_m + misfit_share x the length of its displacement, with
   /// a correlation length of misfit_length_m. They are enlarged where the recordings show more.
-  double misfit_m = 0.0002, misfit_share = 0.06, misfit_length_m = 0.015;
+  double misfit_m = 0.00015, misfit_share = 0.04, misfit_length_m = 0.015;
 };
 
 }  // namespace hyperex::estimate

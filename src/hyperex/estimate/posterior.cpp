@@ -173,12 +173,14 @@ Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double
       if (free[i] < u.lines(0) || free[i] >= u.shared())
         size = std::max(size, std::abs(step[Eigen::Index(i)]));
     if (size < kSmallStep || mode.iterations == kMostIterations) break;
-    double share = 1;
     Eigen::VectorXd tried = x;
-    for (int halving = 0; halving < kMostHalvings; ++halving, share /= 2) {
+    bool better = false;
+    double share = 1;
+    for (int halving = 0; halving < kMostHalvings && !better; ++halving, share /= 2) {
       tried(free) = x(free) + share * step;
-      if (cost(tried, precision, scale) < mode.cost) break;
+      better = cost(tried, precision, scale) < mode.cost;
     }
+    if (!better) break;
     x = tried;
   }
   mode.x = x;

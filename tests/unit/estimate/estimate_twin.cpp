@@ -75,7 +75,7 @@ std::vector<Observation> observations_of(const Patient& patient,
   const TwinTruth truth(truth_mesh.face,
                         hyperex::test::displaced_lines(muscles::muscle_template(),
                                                        1e3 * patient.lines_off_m, patient.seed),
-                        patient.young_factor, changes);
+                        patient.young_factor, changes, points);
   std::mt19937 random(patient.seed);
   std::normal_distribution<double> normal;
   std::vector<Observation> out;
