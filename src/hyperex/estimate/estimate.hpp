@@ -40,7 +40,6 @@ struct Finding {
   std::string further;
   Range further_interval;
 };
-inline constexpr double kWidestRatio = 2.5, kWidestGain = 0.8;
 
 /// Two quantities that move the observed points alike.
 struct Alike {

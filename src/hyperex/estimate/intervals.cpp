@@ -8,9 +8,9 @@
 namespace hyperex::estimate {
 namespace {
 
-constexpr int kMostProfileSteps = 5;
+constexpr int kMostProfileSteps = 4;
 /// The ends of a profile interval are found to this accuracy of the number of sigmas.
-constexpr double kEndAccuracy = 0.05;
+constexpr double kEndAccuracy = 0.1;
 
 std::vector<Eigen::Index> free_unknowns(const Mode& mode,
                                         const std::function<bool(Eigen::Index)>& known) {

@@ -11,8 +11,9 @@ namespace hyperex::estimate {
 namespace {
 
 constexpr int kMostIterations = 40, kMostHalvings = 6;
-/// A step of less than this (activations, logarithms, gains) ends the iteration.
-constexpr double kSmallStep = 1e-3;
+/// The search ends where a step would lower the cost by less than this: for a mode, and where some
+/// unknowns are held, for a profile, whose cost alone matters.
+constexpr double kSmallGain = 1e-4, kSmallProfileGain = 0.01;
 /// How often the scale of the model's errors is found anew.
 constexpr int kScaleRounds = 3;
 
@@ -128,7 +129,8 @@ double Posterior::cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precisio
   return out;
 }
 
-Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale) {
+Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale,
+                        double enough) {
   const Unknowns& u = model_.unknowns();
   Eigen::VectorXd lower =
       Eigen::VectorXd::Constant(u.all(), -std::numeric_limits<double>::infinity());
@@ -168,11 +170,9 @@ Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double
     const Eigen::VectorXd right = h_free * x(free) - gradient(free);
     muscles::bounded_least_squares(h_free, right, lower(free), next);
     const Eigen::VectorXd step = next - x(free);
-    double size = 0;
-    for (std::size_t i = 0; i < free.size(); ++i)
-      if (free[i] < u.lines(0) || free[i] >= u.shared())
-        size = std::max(size, std::abs(step[Eigen::Index(i)]));
-    if (size < kSmallStep || mode.iterations == kMostIterations) break;
+    // What the step would gain by the quadratic model.
+    const double gain = -gradient(free).dot(step) - 0.5 * step.dot(h_free * step);
+    if (gain < enough || mode.iterations == kMostIterations) break;
     Eigen::VectorXd tried = x;
     bool better = false;
     double share = 1;
@@ -201,7 +201,8 @@ Mode Posterior::find(const Eigen::VectorXd& start,
     fixed[std::size_t(index)] = true;
   }
   double scale = error_scale > 0 ? error_scale : 1;
-  Mode mode = minimum(x, fixed, scale);
+  const double enough = held.empty() ? kSmallGain : kSmallProfileGain;
+  Mode mode = minimum(x, fixed, scale, enough);
   for (int round = 0; error_scale <= 0 && round < kScaleRounds; ++round) {
     // Degrees of freedom: the coordinates less what the unknowns take up.
     std::vector<Eigen::Index> free;
@@ -220,7 +221,7 @@ Mode Posterior::find(const Eigen::VectorXd& start,
     const double next = std::max(1.0, scale * std::sqrt(squares / freedom));
     if (std::abs(next - scale) < 0.05 * scale) break;
     scale = next;
-    mode = minimum(mode.x, fixed, scale);
+    mode = minimum(mode.x, fixed, scale, enough);
   }
   return mode;
 }

@@ -59,7 +59,7 @@ class Posterior {
  private:
   Eigen::LLT<Eigen::MatrixXd> errors(const Observation& observation, double scale) const;
   double cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precision, double scale);
-  Mode minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale);
+  Mode minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale, double enough);
 
   FaceModel& face_;
   std::vector<Observation> observations_;

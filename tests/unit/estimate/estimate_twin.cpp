@@ -25,6 +25,13 @@ std::vector<double> part(const tissue::TissueFieldMaker& maker, const std::strin
   return out;
 }
 
+Points places_of(const std::vector<std::string>& points) {
+  Points out(Eigen::Index(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.row(Eigen::Index(i)) = programs_mesh().face.landmarks.at(points[i]).transpose();
+  return out;
+}
+
 }  // namespace
 
 TwinMesh::TwinMesh(double element_size_m) {
@@ -54,11 +61,10 @@ std::vector<std::string> inner_points() {
   return out;
 }
 
-Points places_of(const std::vector<std::string>& points) {
-  Points out(Eigen::Index(points.size()), 3);
-  for (std::size_t i = 0; i < points.size(); ++i)
-    out.row(Eigen::Index(i)) = programs_mesh().face.landmarks.at(points[i]).transpose();
-  return out;
+FaceModel model_of(const Question& question, const std::vector<std::string>& points) {
+  const TwinMesh& mesh = programs_mesh();
+  return face_model(*mesh.face.mesh, mesh.face.landmarks, mesh.face.options, points,
+                    places_of(points), question);
 }
 
 std::vector<Observation> observations_of(const Patient& patient,

@@ -41,8 +41,8 @@ std::vector<Observation> observations_of(const Patient& patient,
                                          const std::vector<std::string>& expressions,
                                          const std::vector<std::string>& points);
 
-/// Places of the points at rest.
-Points places_of(const std::vector<std::string>& points);
+/// What the program knows of the face.
+FaceModel model_of(const Question& question, const std::vector<std::string>& points);
 /// All 68 but those of the outline that are not of the chin.
 std::vector<std::string> inner_points();
 

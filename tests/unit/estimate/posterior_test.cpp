@@ -3,20 +3,16 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
+#include <algorithm>
+#include <cmath>
 
 #include "estimate/estimate_twin.hpp"
 #include "hyperex/estimate/intervals.hpp"
 #include "hyperex/estimate/proposal.hpp"
+#include "hyperex/simulate/load/muscle_tissue.hpp"
 
 namespace hyperex::estimate::test {
 namespace {
-
-FaceModel model_of(const Question& question, const std::vector<std::string>& points) {
-  const TwinMesh& mesh = programs_mesh();
-  return face_model(*mesh.face.mesh, mesh.face.landmarks, mesh.face.options, points,
-                    places_of(points), question);
-}
 
 TEST(RecordingModel, DerivativeIsThatOfFiniteDifferences) {
   const std::vector<std::string> points{"ibug68_48", "ibug68_54", "ibug68_8", "ibug68_51"};
@@ -53,43 +49,117 @@ TEST(RecordingModel, DerivativeIsThatOfFiniteDifferences) {
   EXPECT_EQ(analytic.col(u.activations(0)).norm(), 0) << "of the other recording";
 }
 
-TEST(Posterior, Trial) {
-  using Clock = std::chrono::steady_clock;
-  const auto points = inner_points();
-  const std::vector<std::string> expressions{"smile", "pucker"};
-  auto t0 = Clock::now();
-  const auto lap = [&](const char* what) {
-    std::printf("%s %.2f s\n", what, std::chrono::duration<double>(Clock::now() - t0).count());
-    t0 = Clock::now();
+TEST(FaceResponses, AreThoseOfTheMusclesInTheScenesTissue) {
+  const TwinMesh& mesh = programs_mesh();
+  const std::vector<std::string> points{"ibug68_48", "ibug68_54", "ibug68_20"};
+  FaceModel face = model_of({{mesh.cheeks()}, {}}, points);
+  fem::Material material = mesh.face.options.tissue.material(
+      std::size_t(mesh.face.mesh->volume.tets.rows()), mesh.face.options.model.viscous_form);
+  stiffen_lips(*mesh.face.mesh, mesh.face.landmarks, mesh.face.options.muscles, material);
+  fem::System system;
+  fem::Assembler(mesh.face.mesh->volume.nodes, mesh.face.mesh->volume.tets,
+                 mesh.face.options.model.element)
+      .assemble(material, system);
+  const auto model = muscle_model(*mesh.face.mesh, mesh.face.landmarks, mesh.face.options,
+                                  system.stiffness, nullptr);
+  const auto carrier = simulate::carriers(
+      *mesh.face.mesh, simulate::skin_places(*mesh.face.mesh, points, face.places));
+  const auto expect_same = [](const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) {
+    EXPECT_LT((a - b).norm(), 1e-9 * b.norm());
   };
-  for (const unsigned seed : {1u, 2u, 3u}) {
-    Patient patient{.cheek_ratio = 2, .seed = seed};
-    if (seed > 1) patient.lines_off_m = 2e-3;
-    if (seed > 2) patient.young_factor = 1.5, patient.uneven = 0.05;
-    const auto seen = observations_of(patient, expressions, points);
-    lap("truth");
-    FaceModel face = model_of({{programs_mesh().cheeks()}, {"zygomatic_R"}}, points);
-    lap("model");
-    Posterior posterior(face, seen, {});
-    const Mode mode = posterior.find(posterior.start(), {});
-    lap("mode");
-    std::printf(
-        "nodes %d, unknowns %d, iterations %d, scale %.2f, rms %.3f mm, ratio %.3f gain %.3f "
-        "tissue %.3f\n",
-        int(programs_mesh().face.mesh->volume.nodes.rows()), int(mode.x.size()), mode.iterations,
-        mode.error_scale, 1e3 * mode.rms_m, std::exp(mode.x[0]), mode.x[1], std::exp(mode.x[2]));
-    for (int k = 0; k < 2; ++k) {
-      const AskedInterval i = interval_of(posterior, mode, k);
-      std::printf("  value %.3f sigma %.3f laplace %.3f %.3f profile %.3f %.3f\n", i.value, i.sigma,
-                  i.laplace.low, i.laplace.high, i.profile.low, i.profile.high);
-      for (const auto& p : error_parts(mode, posterior.unknowns(), k))
-        std::printf("      %.2f %s\n", p.share, p.words);
-    }
-    lap("intervals");
-    for (const auto& p : proposals(face, posterior, mode, {}))
-      std::printf("  %-20s %.3f %.3f\n", p.expression.c_str(), p.sigma[0], p.sigma[1]);
-    lap("proposals");
+  const PointColumns& columns = face.responses.columns();
+  expect_same(columns.muscles.narrow, at_places(carrier, model.response()));
+  expect_same(columns.muscles.wide, at_places(carrier, model.wide_response()));
+  expect_same(columns.jaw, at_places(carrier, model.jaw_response()));
+  // Stiffer tissue moves less under the same forces; only the cheek's change is one-sided.
+  face.responses.set_stiffness(Eigen::Vector2d(0, 1));
+  EXPECT_LT(columns.muscles.narrow.norm(), 0.7 * at_places(carrier, model.response()).norm());
+  face.responses.set_stiffness(Eigen::Vector2d(1, 0));
+  const auto moves = [&](const char* muscle, int point) {
+    const auto& lines = face.responses.lines();
+    const auto at = std::ranges::find(lines, muscle, &muscles::MuscleLine::name) - lines.begin();
+    return columns.muscles.narrow.col(at).segment<3>(3 * point).norm();
+  };
+  EXPECT_LT(moves("zyg_major_L", 1), 0.95 * moves("zyg_major_R", 0));
+}
+
+TEST(Posterior, BothSidesAreTriedAlike) {
+  FaceModel face = model_of({{}, {"zygomatic_R"}}, {"ibug68_48", "ibug68_54", "ibug68_8"});
+  Observation seen;
+  seen.displacement_m = Eigen::VectorXd::Zero(9);
+  seen.head_turn_rad = seen.head_shift_m = 1e-3;
+  const Assumptions assumed;
+  Posterior posterior(face, {seen}, assumed);
+  const Unknowns& u = posterior.unknowns();
+  Eigen::VectorXd x = posterior.start();
+  x.segment(u.activations(0), u.muscles).setConstant(0.4);
+  const Eigen::MatrixXd covariance = posterior.prior_precision(x).inverse();
+  const int left = face.prior.left[0], right = face.prior.right[0];
+  const auto at = [&](int a, int b) {
+    return covariance(u.activations(0) + a, u.activations(0) + b);
+  };
+  // Var((L - R) / 2) and Var((L + R) / 2)
+  const double difference = (at(left, left) + at(right, right) - 2 * at(left, right)) / 4;
+  const double mean = (at(left, left) + at(right, right) + 2 * at(left, right)) / 4;
+  EXPECT_NEAR(difference,
+              std::pow(0.4 * assumed.side, 2) + std::pow(0.4 * assumed.muscle, 2) +
+                  std::pow(assumed.least_difference, 2),
+              1e-9);
+  EXPECT_NEAR(mean, std::pow(face.prior.sigma[0], 2), 1e-9);
+  EXPECT_NEAR(covariance(u.gain(0), u.gain(0)), 1, 1e-9);
+}
+
+TEST(Posterior, AWeakBranchIsFoundAndItsIntervalIsThatOfTheProfile) {
+  const auto points = inner_points();
+  FaceModel face = model_of({{}, {"zygomatic_R"}}, points);
+  const auto seen =
+      observations_of({.gain = 0.5, .noise_m = 1e-4}, {"smile", "eye closure"}, points);
+  Posterior posterior(face, seen, {});
+  const Mode mode = posterior.find(posterior.start(), {});
+  EXPECT_LT(mode.rms_m, 3e-4);
+  const AskedInterval gain = interval_of(posterior, mode, 0);
+  EXPECT_NEAR(gain.value, 0.5, 0.1);
+  EXPECT_LT(gain.profile.high, 1);
+  EXPECT_NEAR(gain.profile.low, gain.laplace.low, 0.3 * gain.sigma + 0.02);
+  EXPECT_NEAR(gain.profile.high, gain.laplace.high, 0.7 * gain.sigma + 0.02);
+  // At an end of the profile's interval the posterior has fallen by exp(-1.92).
+  const Mode end = posterior.find(mode.x, {{0, gain.profile.high}}, mode.error_scale);
+  EXPECT_NEAR(end.cost - mode.cost, 1.92, 0.4);
+  for (const ErrorPart& part : error_parts(mode, posterior.unknowns(), 0)) {
+    EXPECT_GE(part.share, -1e-9) << part.words;
+    EXPECT_LE(part.share, 1) << part.words;
   }
+}
+
+TEST(Posterior, WhatMovesThePointsAlikeIsNotToldApart) {
+  const std::vector<std::string> seven{"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57",
+                                       "ibug68_8",  "ibug68_58", "ibug68_56"};
+  FaceModel face = model_of({{}, {"zyg_major_R", "lev_anguli_R"}}, seven);
+  Posterior posterior(face, observations_of({.gain = 0.5, .weak = "zyg_major_R"}, {"smile"}, seven),
+                      {});
+  const Mode mode = posterior.find(posterior.start(), {});
+  const Eigen::MatrixXd c = asked_covariance(mode, posterior.unknowns());
+  EXPECT_GT(2 * kSigmas95 * std::sqrt(c(1, 1)), kWidestGain);
+  EXPECT_LT(c(0, 1), 0) << "more of one is less of the other";
+}
+
+TEST(Proposals, AreWhatTheRecordingThenGives) {
+  const auto points = inner_points();
+  FaceModel face = model_of({{}, {"zygomatic_R"}}, points);
+  const std::vector<std::string> both{"smile", "eye closure"};
+  const auto seen = observations_of({.gain = 0.6}, both, points);
+  const auto sigma_of = [&](const std::vector<Observation>& some) {
+    Posterior posterior(face, some, {});
+    const Mode mode = posterior.find(posterior.start(), {});
+    return std::pair(std::sqrt(asked_covariance(mode, posterior.unknowns())(0, 0)),
+                     proposals(face, posterior, mode, {}));
+  };
+  const auto [alone, further] = sigma_of({seen.front()});
+  const auto best = std::ranges::min_element(further, {}, [](const auto& p) { return p.sigma[0]; });
+  EXPECT_LT(best->sigma[0], alone);
+  const auto closure = std::ranges::find(further, "eye closure", &Proposal::expression);
+  ASSERT_NE(closure, further.end());
+  EXPECT_NEAR(sigma_of(seen).first / closure->sigma[0], 1, 0.35);
 }
 
 }  // namespace
