@@ -68,12 +68,13 @@ TEST(FaceResponses, AreThoseOfTheMusclesInTheScenesTissue) {
     EXPECT_LT((a - b).norm(), 1e-9 * b.norm());
   };
   const PointColumns& columns = face.responses.columns();
-  expect_same(columns.muscles.narrow, at_places(carrier, model.response()));
-  expect_same(columns.muscles.wide, at_places(carrier, model.wide_response()));
-  expect_same(columns.jaw, at_places(carrier, model.jaw_response()));
+  expect_same(columns.muscles.narrow, simulate::at_places(carrier, model.response()));
+  expect_same(columns.muscles.wide, simulate::at_places(carrier, model.wide_response()));
+  expect_same(columns.jaw, simulate::at_places(carrier, model.jaw_response()));
   // Stiffer tissue moves less under the same forces; only the cheek's change is one-sided.
   face.responses.set_stiffness(Eigen::Vector2d(0, 1));
-  EXPECT_LT(columns.muscles.narrow.norm(), 0.7 * at_places(carrier, model.response()).norm());
+  EXPECT_LT(columns.muscles.narrow.norm(),
+            0.7 * simulate::at_places(carrier, model.response()).norm());
   face.responses.set_stiffness(Eigen::Vector2d(1, 0));
   const auto moves = [&](const char* muscle, int point) {
     const auto& lines = face.responses.lines();
