@@ -34,6 +34,7 @@ void bind_measures(py::module_& m);
 void bind_compare(py::module_& m);
 void bind_export(py::module_& m);
 void bind_scene(py::module_& m);
+void bind_estimate(py::module_& m);
 void bind_visits(py::module_& m);
 
 /// From "mm", "cm" or "m"; InputError for another word.

@@ -53,5 +53,6 @@ PYBIND11_MODULE(_hyperex, m) {
   bind_compare(m);
   bind_export(m);
   bind_scene(m);
+  bind_estimate(m);
   bind_visits(m);
 }

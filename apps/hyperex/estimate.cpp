@@ -29,6 +29,7 @@ void run(const EstimateOptions& options) {
   std::vector<fs::path> inputs{options.scene, scene.scan.source.file, scene.motion.source.file};
   inputs.insert(inputs.end(), options.request.recordings.begin(), options.request.recordings.end());
   check_outputs({options.out}, inputs);
+  check_output_kinds({{options.out, {".json"}, "{", {"\"findings\"", "\"model_error_scale\""}}});
   const estimate::Estimate found = estimate::estimate(
       scene, options.request, [](const std::string& stage) { spdlog::info("{}", stage); });
   for (const std::string& remark : found.remarks) spdlog::warn("{}", remark);

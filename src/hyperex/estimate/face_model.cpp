@@ -38,7 +38,11 @@ std::vector<int> muscles_of(const std::string& gain, const std::vector<muscles::
   for (std::size_t m = 0; m < lines.size(); ++m)
     if (muscles::names_for(lines[m].name, table).contains(gain)) out.push_back(int(m));
   if (out.empty())
-    throw InputError("gain", gain + ": expected " + muscles::gain_expected(gain, table));
+    throw InputError({.file = {},
+                      .line = 0,
+                      .key = "gain",
+                      .value = gain,
+                      .expected = muscles::gain_expected(gain, table)});
   return out;
 }
 

@@ -8,15 +8,14 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/scene.hpp"
-#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/session/unknown_names.hpp"
 
 namespace hyperex::estimate {
 namespace {
 
-constexpr const char* kKey = "stiffness";
-
 [[noreturn]] void refuse(const std::string& asked, const std::string& expected) {
-  throw InputError(kKey, fmt::format("\"{}\": expected {}", asked, expected));
+  throw InputError(
+      {.file = {}, .line = 0, .key = "stiffness", .value = asked, .expected = expected});
 }
 
 /// The index in "tissue.region[2]", or -1.
@@ -48,18 +47,23 @@ tissue::TissueRegion region_of(const scene::Scene& scene, const std::string& ask
 /// Per tetrahedron: how much of a change of this part applies.
 std::vector<double> shares(session::FaceSession& session, const std::string& asked,
                            const std::string& part) {
-  scene::Scene plain = session.scene(), doubled = plain;
-  plain.tissue.mirror = doubled.tissue.mirror = false;
-  plain.tissue = {};
+  scene::Scene doubled = session.scene();
   doubled.tissue = {};
   tissue::TissueRegion region = region_of(session.scene(), asked, part);
   region.factor[tissue::young] = 2;
   doubled.tissue.regions = {region};
   const auto tets = std::size_t(session.mesh().volume.tets.rows());
-  const auto& of_plain = tissue::default_parameters[tissue::young];
-  std::vector<double> out = session.tissue_of(doubled).element[tissue::young];
+  const double plain = tissue::default_parameters[tissue::young];
+  std::vector<double> out;
+  try {
+    out = session.tissue_of(doubled).element[tissue::young];
+  } catch (const InputError&) {
+    const std::string near = session::nearest_region(part);
+    refuse(asked, "names of parts of the face (hyperex presets lists them)" +
+                      (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
   if (out.size() != tets) refuse(asked, "a part of the face that the scan has");
-  for (double& young : out) young = std::clamp(young / of_plain - 1, 0.0, 1.0);
+  for (double& young : out) young = std::clamp(young / plain - 1, 0.0, 1.0);
   return out;
 }
 
