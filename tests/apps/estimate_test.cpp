@@ -60,7 +60,7 @@ TEST_F(EstimateProgram, RefusesWhatCannotBeAsked) {
   refused("--stiffness chek_L", "did you mean cheek_L?");
   refused("--stiffness cheek_L:cheek_L", "two different parts");
   refused("--stiffness tissue.region[0]", "which has 0");
-  refused("--gain zygomaticus", "zygomatic_R");
+  refused("--gain zygomaticus", "did you mean zyg_major_R");
   refused("--gain zygomatic_R --recording none.csv", "none.csv");
   put(in("o.json"), "mine");
   EXPECT_EQ(call("estimate s.toml --gain zygomatic_R --out o.json").status, 2);
