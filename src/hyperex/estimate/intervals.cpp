@@ -12,17 +12,10 @@ constexpr int kMostProfileSteps = 4;
 /// The ends of a profile interval are found to this accuracy of the number of sigmas.
 constexpr double kEndAccuracy = 0.1;
 
-std::vector<Eigen::Index> free_unknowns(const Mode& mode,
-                                        const std::function<bool(Eigen::Index)>& known) {
-  std::vector<Eigen::Index> out;
-  for (Eigen::Index i = 0; i < mode.x.size(); ++i)
-    if (!mode.fixed[std::size_t(i)] && !known(i)) out.push_back(i);
-  return out;
-}
-
 double variance(const Mode& mode, Eigen::Index which,
                 const std::function<bool(Eigen::Index)>& known) {
-  const auto free = free_unknowns(mode, known);
+  std::vector<Eigen::Index> free = free_unknowns(mode.fixed);
+  std::erase_if(free, known);
   const auto at = std::find(free.begin(), free.end(), which) - free.begin();
   const Eigen::MatrixXd h = mode.hessian(free, free);
   if (at == Eigen::Index(free.size())) return 0;
@@ -51,7 +44,7 @@ double profile_end(Posterior& posterior, const Mode& mode, Eigen::Index which, d
 }  // namespace
 
 Eigen::MatrixXd asked_covariance(const Mode& mode, const Unknowns& unknowns) {
-  const auto free = free_unknowns(mode, [](Eigen::Index) { return false; });
+  const auto free = free_unknowns(mode.fixed);
   const Eigen::MatrixXd h = mode.hessian(free, free);
   const Eigen::MatrixXd all = h.llt().solve(Eigen::MatrixXd::Identity(h.rows(), h.cols()));
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(unknowns.asked(), unknowns.asked());

@@ -19,6 +19,13 @@ constexpr int kScaleRounds = 3;
 
 }  // namespace
 
+std::vector<Eigen::Index> free_unknowns(const std::vector<char>& fixed) {
+  std::vector<Eigen::Index> out;
+  for (std::size_t i = 0; i < fixed.size(); ++i)
+    if (!fixed[i]) out.push_back(Eigen::Index(i));
+  return out;
+}
+
 Posterior::Posterior(FaceModel& face, std::vector<Observation> observations,
                      const Assumptions& assumptions, std::function<void()> between)
     : face_(face),
@@ -129,8 +136,7 @@ double Posterior::cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precisio
   return out;
 }
 
-Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale,
-                        double enough) {
+Eigen::VectorXd Posterior::lower_bounds() const {
   const Unknowns& u = model_.unknowns();
   Eigen::VectorXd lower =
       Eigen::VectorXd::Constant(u.all(), -std::numeric_limits<double>::infinity());
@@ -138,56 +144,66 @@ Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double
   for (Eigen::Index e = 0; e < u.recordings; ++e)
     for (Eigen::Index m = 0; m < u.muscles; ++m)
       if (!face_.prior.tone[std::size_t(m)]) lower[u.activations(e) + m] = 0;
-  std::vector<Eigen::Index> free;
-  for (Eigen::Index i = 0; i < u.all(); ++i)
-    if (!held[std::size_t(i)]) free.push_back(i);
+  return lower;
+}
+
+/// Sets the mode's cost, Hessian and residual to those at its x. Returns the gradient.
+Eigen::VectorXd Posterior::expand(const Eigen::MatrixXd& precision, Mode& mode) {
+  const Eigen::VectorXd off = mode.x - start();
+  Eigen::VectorXd gradient = precision * off;
+  mode.cost = 0.5 * off.dot(gradient);
+  mode.hessian = precision;
+  double squares = 0;
+  Eigen::Index coordinates = 0;
+  for (std::size_t e = 0; e < observations_.size(); ++e) {
+    const auto error = errors(observations_[e], mode.error_scale);
+    const Eigen::VectorXd plain =
+        observations_[e].displacement_m - model_.displacement(mode.x, Eigen::Index(e));
+    const Eigen::VectorXd residual = error.matrixL().solve(plain);
+    const Eigen::MatrixXd derivative =
+        error.matrixL().solve(model_.derivative(mode.x, Eigen::Index(e)));
+    mode.hessian.noalias() += derivative.transpose() * derivative;
+    gradient.noalias() -= derivative.transpose() * residual;
+    mode.cost += 0.5 * residual.squaredNorm();
+    squares += plain.squaredNorm();
+    coordinates += plain.size();
+  }
+  mode.rms_m = std::sqrt(squares / double(coordinates));
+  return gradient;
+}
+
+Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale,
+                        double enough) {
+  const Eigen::VectorXd lower = lower_bounds();
+  const std::vector<Eigen::Index> free = free_unknowns(held);
   Mode mode;
+  mode.x = std::move(x);
+  mode.error_scale = scale;
   for (;; ++mode.iterations) {
     if (between_) between_();
-    const Eigen::MatrixXd precision = prior_precision(x);
-    Eigen::MatrixXd h = precision;
-    Eigen::VectorXd gradient = precision * (x - start());
-    mode.cost = 0.5 * (x - start()).dot(gradient);
-    double squares = 0;
-    Eigen::Index coordinates = 0;
-    for (std::size_t e = 0; e < observations_.size(); ++e) {
-      const auto error = errors(observations_[e], scale);
-      const Eigen::VectorXd plain =
-          observations_[e].displacement_m - model_.displacement(x, Eigen::Index(e));
-      const Eigen::VectorXd residual = error.matrixL().solve(plain);
-      const Eigen::MatrixXd derivative =
-          error.matrixL().solve(model_.derivative(x, Eigen::Index(e)));
-      h.noalias() += derivative.transpose() * derivative;
-      gradient.noalias() -= derivative.transpose() * residual;
-      mode.cost += 0.5 * residual.squaredNorm();
-      squares += plain.squaredNorm();
-      coordinates += plain.size();
-    }
-    mode.rms_m = std::sqrt(squares / double(coordinates));
-    mode.hessian = h;
-    const Eigen::MatrixXd h_free = h(free, free);
-    Eigen::VectorXd next = x(free);
-    const Eigen::VectorXd right = h_free * x(free) - gradient(free);
-    muscles::bounded_least_squares(h_free, right, lower(free), next);
-    const Eigen::VectorXd step = next - x(free);
+    const Eigen::MatrixXd precision = prior_precision(mode.x);
+    const Eigen::VectorXd gradient = expand(precision, mode)(free);
+    const Eigen::MatrixXd h = mode.hessian(free, free);
+    const Eigen::VectorXd here = mode.x(free);
+    Eigen::VectorXd next = here;
+    muscles::bounded_least_squares(h, h * here - gradient, lower(free), next);
+    const Eigen::VectorXd step = next - here;
     // What the step would gain by the quadratic model.
-    const double gain = -gradient(free).dot(step) - 0.5 * step.dot(h_free * step);
+    const double gain = -gradient.dot(step) - 0.5 * step.dot(h * step);
     if (gain < enough || mode.iterations == kMostIterations) break;
-    Eigen::VectorXd tried = x;
+    Eigen::VectorXd tried = mode.x;
     bool better = false;
     double share = 1;
     for (int halving = 0; halving < kMostHalvings && !better; ++halving, share /= 2) {
-      tried(free) = x(free) + share * step;
+      tried(free) = here + share * step;
       better = cost(tried, precision, scale) < mode.cost;
     }
     if (!better) break;
-    x = tried;
+    mode.x = tried;
   }
-  mode.x = x;
-  mode.error_scale = scale;
   mode.fixed = held;
-  for (Eigen::Index i = 0; i < u.all(); ++i)
-    if (x[i] <= lower[i]) mode.fixed[std::size_t(i)] = true;
+  for (Eigen::Index i = 0; i < mode.x.size(); ++i)
+    if (mode.x[i] <= lower[i]) mode.fixed[std::size_t(i)] = true;
   return mode;
 }
 
@@ -205,9 +221,7 @@ Mode Posterior::find(const Eigen::VectorXd& start,
   Mode mode = minimum(x, fixed, scale, enough);
   for (int round = 0; error_scale <= 0 && round < kScaleRounds; ++round) {
     // Degrees of freedom: the coordinates less what the unknowns take up.
-    std::vector<Eigen::Index> free;
-    for (Eigen::Index i = 0; i < u.all(); ++i)
-      if (!mode.fixed[std::size_t(i)]) free.push_back(i);
+    const std::vector<Eigen::Index> free = free_unknowns(mode.fixed);
     const Eigen::MatrixXd all = information(mode);
     const Eigen::MatrixXd taken = mode.hessian(free, free).llt().solve(all(free, free));
     double squares = 0, coordinates = 0;

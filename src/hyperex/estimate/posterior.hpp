@@ -21,6 +21,9 @@ struct Mode {
   int iterations = 0;
 };
 
+/// The indices of those that are not fixed.
+std::vector<Eigen::Index> free_unknowns(const std::vector<char>& fixed);
+
 /// The posterior of all unknowns given recordings:
 ///
 ///   -ln p(x) = 1/2 sum_e r_e^T (N_e + s^2 M_e)^-1 r_e + 1/2 (x - x0)^T P (x - x0)
@@ -59,6 +62,8 @@ class Posterior {
  private:
   Eigen::LLT<Eigen::MatrixXd> errors(const Observation& observation, double scale) const;
   double cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precision, double scale);
+  Eigen::VectorXd lower_bounds() const;
+  Eigen::VectorXd expand(const Eigen::MatrixXd& precision, Mode& mode);
   Mode minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale, double enough);
 
   FaceModel& face_;

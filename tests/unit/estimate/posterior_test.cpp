@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 
 #include "estimate/estimate_twin.hpp"
 #include "hyperex/estimate/intervals.hpp"
@@ -130,6 +131,24 @@ TEST(Posterior, AWeakBranchIsFoundAndItsIntervalIsThatOfTheProfile) {
     EXPECT_GE(part.share, -1e-9) << part.words;
     EXPECT_LE(part.share, 1) << part.words;
   }
+}
+
+TEST(Posterior, ErrorsAreEnlargedWhereTheRecordingsShowMore) {
+  const auto points = inner_points();
+  FaceModel face = model_of({{}, {"zygomatic_R"}}, points);
+  auto seen = observations_of({.noise_m = 1e-4}, {"smile"}, points);
+  Posterior usual(face, seen, {});
+  const Mode as_assumed = usual.find(usual.start(), {});
+  EXPECT_EQ(as_assumed.error_scale, 1);
+  // Errors of 1 mm that neither muscles nor the stated noise explain.
+  std::mt19937 random(7);
+  std::normal_distribution<double> normal(0, 1e-3);
+  for (double& coordinate : seen.front().displacement_m) coordinate += normal(random);
+  Posterior rough(face, seen, {});
+  const Mode more = rough.find(rough.start(), {});
+  EXPECT_GT(more.error_scale, 2);
+  EXPECT_GT(asked_covariance(more, rough.unknowns())(0, 0),
+            1.2 * asked_covariance(as_assumed, usual.unknowns())(0, 0));
 }
 
 TEST(Posterior, WhatMovesThePointsAlikeIsNotToldApart) {

@@ -1,0 +1,41 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+import json
+import pathlib
+import tempfile
+import unittest
+
+import hyperex
+
+
+class Estimate(unittest.TestCase):
+    def setUp(self):
+        self.folder = tempfile.TemporaryDirectory()
+        self.scene = pathlib.Path(self.folder.name) / "s.toml"
+        self.scene.write_text(
+            'scan = { file = "embedded" }\nmotion = { file = "embedded" }\n'
+            "mesh = { element_size_mm = 9 }\n"
+            'drive.points = ["ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "ibug68_8"]\n')
+
+    def tearDown(self):
+        self.folder.cleanup()
+
+    def test_findings_have_intervals(self):
+        estimate = hyperex.estimate(self.scene, stiffness=["cheek_L:cheek_R"], gains=["zygomatic_R"])
+        ratio, gain = estimate.findings
+        self.assertEqual((ratio.kind, ratio.name), ("ratio", "cheek_L / cheek_R"))
+        self.assertLess(ratio.interval[0], 1)
+        self.assertGreater(ratio.interval[1], 1)
+        self.assertEqual(gain.kind, "gain")
+        self.assertFalse(gain.determined)  # an opening mouth does not use it
+        self.assertIn("cannot tell", estimate.summary[1])
+        self.assertEqual(json.loads(estimate.json())["points"], estimate.points)
+
+    def test_a_mistake_is_one_sentence(self):
+        with self.assertRaisesRegex(ValueError, "Motion alone"):
+            hyperex.estimate(self.scene, stiffness=["all"])
+        with self.assertRaisesRegex(ValueError, "what to find"):
+            hyperex.estimate(self.scene)
+
+
+if __name__ == "__main__":
+    unittest.main()
