@@ -8,6 +8,7 @@
 #include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/estimate/standard_expressions.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "muscles/a_face.hpp"
 
@@ -30,6 +31,40 @@ Points places_of(const std::vector<std::string>& points) {
   for (std::size_t i = 0; i < points.size(); ++i)
     out.row(Eigen::Index(i)) = programs_mesh().face.landmarks.at(points[i]).transpose();
   return out;
+}
+
+/// The tracks of the landmarks where the forces that make `motion` in the truth's tissue act in the
+/// changed one, at finite strain.
+simulate::AlignedMotion at_finite_strain(const simulate::AlignedMotion& motion,
+                                         const Patient& patient,
+                                         const muscles::MuscleTable& muscles,
+                                         const hyperex::test::TwinChange& change) {
+  const auto& face = truths_mesh().face;
+  simulate::SimulationOptions options = face.options;
+  options.model.strain = simulate::Strain::finite;
+  options.drive.by = simulate::DriveBy::muscles;
+  options.drive.points = motion.motion.names;
+  options.muscles.own = muscles;
+  options.tissue.uniform[tissue::young] *= patient.young_factor;
+  simulate::Simulator simulator(face.mesh, face.landmarks, motion, options);
+  simulator.run();
+  simulator.hold_load();
+  for (int p = 0; p < tissue::parameter_count; ++p)
+    options.tissue.element[p].assign(change.young_factor.size(), options.tissue.uniform[p]);
+  for (std::size_t t = 0; t < change.young_factor.size(); ++t)
+    options.tissue.element[tissue::young][t] *= change.young_factor[t];
+  options.muscles.gains = change.gains;
+  simulator.set_options(options);
+  simulate::AlignedMotion out;
+  out.motion = simulator.run().performance.landmarks;
+  out.rest = out.motion.positions.front();
+  return out;
+}
+
+void add_noise(motion::Motion& motion, double noise_m, std::mt19937& random) {
+  std::normal_distribution<double> normal(0, noise_m);
+  for (Points& at : motion.positions)
+    for (double& coordinate : at.reshaped()) coordinate += normal(random);
 }
 
 }  // namespace
@@ -78,10 +113,9 @@ std::vector<Observation> observations_of(const Patient& patient,
     change.young_factor.push_back((1 + truth_mesh.cheek_L[t] * (root - 1)) *
                                   (1 + truth_mesh.cheek_R[t] * (1 / root - 1)));
   const std::vector<hyperex::test::TwinChange> changes{change};
-  const TwinTruth truth(truth_mesh.face,
-                        hyperex::test::displaced_lines(muscles::muscle_template(),
-                                                       1e3 * patient.lines_off_m, patient.seed),
-                        patient.young_factor, changes, points);
+  const auto muscles = hyperex::test::displaced_lines(muscles::muscle_template(),
+                                                      1e3 * patient.lines_off_m, patient.seed);
+  const TwinTruth truth(truth_mesh.face, muscles, patient.young_factor, changes, points);
   std::mt19937 random(patient.seed);
   std::normal_distribution<double> normal;
   std::vector<Observation> out;
@@ -99,8 +133,9 @@ std::vector<Observation> observations_of(const Patient& patient,
     jaw[0] = expression->opening_rad;
     RecordingErrors errors{
         .jitter_m = std::max(1e-5, patient.noise_m), .head_turn_rad = 2e-3, .head_shift_m = 2e-4};
-    const auto motion = truth.recorded(activations, patient.noise_m,
-                                       patient.seed * 16 + unsigned(out.size()), 1, jaw);
+    auto motion = truth.recorded(activations, 0, 0, patient.finite ? 0 : 1, jaw);
+    if (patient.finite) motion = at_finite_strain(motion, patient, muscles, change);
+    add_noise(motion.motion, patient.noise_m, random);
     out.push_back(observe(motion, points, errors, name));
     const Points places = places_of(points);
     const Eigen::RowVector3d middle = places.colwise().mean();

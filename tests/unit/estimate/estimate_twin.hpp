@@ -33,6 +33,7 @@ struct Patient {
   double lines_off_m = 0;
   double uneven = 0;  ///< relative difference of the sides' efforts, 1 sigma
   double noise_m = 3e-4;
+  bool finite = false;  ///< tissue at finite strain, where the program assumes small strain
   unsigned seed = 1;
 };
 
