@@ -30,8 +30,7 @@ void run(const EstimateOptions& options) {
   inputs.insert(inputs.end(), options.request.recordings.begin(), options.request.recordings.end());
   check_outputs({options.out}, inputs);
   check_output_kinds({{options.out, {".json"}, "{", {"\"findings\"", "\"model_error_scale\""}}});
-  const estimate::Estimate found = estimate::estimate(
-      scene, options.request, [](const std::string& stage) { spdlog::info("{}", stage); });
+  const estimate::Estimate found = estimate::estimate(scene, options.request);
   for (const std::string& remark : found.remarks) spdlog::warn("{}", remark);
   for (const estimate::Observation& seen : found.recordings)
     std::cout << fmt::format("{}: peak at {:.2f} s\n", seen.name, seen.time_s);

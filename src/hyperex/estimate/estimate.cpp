@@ -7,12 +7,12 @@
 #include <cmath>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/estimate/ratio_parts.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
-#include "hyperex/simulate/drive/skin_places.hpp"
 
 namespace hyperex::estimate {
 namespace {
@@ -122,18 +122,35 @@ std::vector<Alike> alike_pairs(Posterior& posterior, const Mode& mode,
   return out;
 }
 
+/// Sets the findings and how well the recordings are met.
+void answer(FaceModel face, const Question& question, const Assumptions& assumptions,
+            Estimate& out) {
+  Posterior posterior(face, out.recordings, assumptions);
+  const Mode mode = [&] {
+    const Progress progress("fitting tissue and muscles to the recordings", 0);
+    return posterior.find(posterior.start(), {});
+  }();
+  out.rms_m = mode.rms_m;
+  out.error_scale = mode.error_scale;
+  std::vector<std::string> names;
+  for (const StiffnessRatio& ratio : question.ratios) names.push_back(ratio.name);
+  names.insert(names.end(), question.gains.begin(), question.gains.end());
+  out.alike = alike_pairs(posterior, mode, names);
+  Progress progress("checking the intervals", long(names.size()));
+  const std::vector<Proposal> further = proposals(face, posterior, mode, assumptions);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    out.findings.push_back(finding_of(posterior, mode, further, Eigen::Index(i), names[i]));
+    progress.update(long(i) + 1);
+  }
+}
+
 }  // namespace
 
-Estimate estimate(const scene::Scene& scene, const Request& request,
-                  const std::function<void(const std::string&)>& stage) {
-  const auto begin = [&](const std::string& what) {
-    if (stage) stage(what);
-  };
+Estimate estimate(const scene::Scene& scene, const Request& request) {
   if (request.stiffness.empty() && request.gains.empty())
     throw InputError("estimate",
                      "expected what to find: parts of the tissue (cheek_L:cheek_R) or muscles "
                      "(zygomatic_R)");
-  begin("reading the face");
   session::FaceSession session{scene::Scene(scene), {}};
   Question question;
   for (const std::string& asked : request.stiffness)
@@ -154,22 +171,12 @@ Estimate estimate(const scene::Scene& scene, const Request& request,
   for (std::size_t i = 0; i < others.size(); ++i)
     out.recordings.push_back(
         observed(others[i], out.points, request.recordings[i].filename().string(), out.remarks));
-  begin("finding how the points follow the muscles");
-  FaceModel face = face_model(session.mesh(), in.landmarks, session.options(0), out.points,
-                              places_of(in.motion, out.points), question);
-  Posterior posterior(face, out.recordings, request.assumptions);
-  begin("fitting tissue and muscles to the recordings");
-  const Mode mode = posterior.find(posterior.start(), {});
-  out.rms_m = mode.rms_m;
-  out.error_scale = mode.error_scale;
-  std::vector<std::string> names;
-  for (const StiffnessRatio& ratio : question.ratios) names.push_back(ratio.name);
-  names.insert(names.end(), question.gains.begin(), question.gains.end());
-  out.alike = alike_pairs(posterior, mode, names);
-  const std::vector<Proposal> further = proposals(face, posterior, mode, request.assumptions);
-  begin("checking the intervals");
-  for (std::size_t i = 0; i < names.size(); ++i)
-    out.findings.push_back(finding_of(posterior, mode, further, Eigen::Index(i), names[i]));
+  const auto face = [&] {
+    const Progress progress("finding how the points follow the muscles", 0);
+    return face_model(session.mesh(), in.landmarks, session.options(0), out.points,
+                      places_of(in.motion, out.points), question);
+  };
+  answer(face(), question, request.assumptions, out);
   return out;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <filesystem>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -61,8 +60,7 @@ struct Estimate {
 /// Finds ratios of stiffness and gains of muscles that explain recordings of a face. The muscles'
 /// forces are free but for their priors; both sides are assumed to be tried alike (posterior.hpp).
 /// Throws InputError for a request that names nothing, an unknown part or muscle, and for absolute
-/// stiffness, which motion does not determine. `stage`: called as each stage begins.
-Estimate estimate(const scene::Scene& scene, const Request& request,
-                  const std::function<void(const std::string&)>& stage = {});
+/// stiffness, which motion does not determine.
+Estimate estimate(const scene::Scene& scene, const Request& request);
 
 }  // namespace hyperex::estimate

@@ -13,7 +13,7 @@ namespace {
 constexpr int kMostIterations = 40, kMostHalvings = 6;
 /// The search ends where a step would lower the cost by less than this: for a mode, and where some
 /// unknowns are held, for a profile, whose cost alone matters.
-constexpr double kSmallGain = 1e-4, kSmallProfileGain = 0.01;
+constexpr double kSmallGain = 1e-3, kSmallProfileGain = 0.01;
 /// How often the scale of the model's errors is found anew.
 constexpr int kScaleRounds = 3;
 
@@ -218,6 +218,13 @@ Mode Posterior::find(const Eigen::VectorXd& start,
   }
   double scale = error_scale > 0 ? error_scale : 1;
   const double enough = held.empty() ? kSmallGain : kSmallProfileGain;
+  if (held.empty()) {
+    // First in the tissue of the start, which needs no other factor.
+    std::vector<char> tissue = fixed;
+    std::fill_n(tissue.begin(), u.ratios, true);
+    tissue[std::size_t(u.tissue())] = true;
+    x = minimum(x, tissue, scale, kSmallProfileGain).x;
+  }
   Mode mode = minimum(x, fixed, scale, enough);
   for (int round = 0; error_scale <= 0 && round < kScaleRounds; ++round) {
     // Degrees of freedom: the coordinates less what the unknowns take up.
