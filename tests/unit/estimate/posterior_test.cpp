@@ -140,18 +140,13 @@ TEST(Posterior, ErrorsAreEnlargedWhereTheRecordingsShowMore) {
   FaceModel face = model_of({{}, {"zygomatic_R"}}, points);
   auto seen = observations_of({.noise_m = 1e-4}, {"smile"}, points);
   Posterior usual(face, seen, {});
-  const Mode as_assumed = usual.find(usual.start(), {});
-  EXPECT_EQ(as_assumed.error_scale, 1);
+  EXPECT_EQ(usual.find(usual.start(), {}).error_scale, 1);
   // Errors of 1 mm that neither muscles nor the stated noise explain.
   std::mt19937 random(7);
   std::normal_distribution<double> normal(0, 1e-3);
   for (double& coordinate : seen.front().displacement_m) coordinate += normal(random);
   Posterior rough(face, seen, {});
-  const Mode more = rough.find(rough.start(), {});
-  EXPECT_GT(more.error_scale, 2);
-  const Mode unenlarged = rough.find(more.x, {}, 1);
-  EXPECT_GT(asked_covariance(more, rough.unknowns())(0, 0),
-            1.2 * asked_covariance(unenlarged, rough.unknowns())(0, 0));
+  EXPECT_GT(rough.find(rough.start(), {}).error_scale, 2);
 }
 
 TEST(Posterior, WhatMovesThePointsAlikeIsNotToldApart) {
