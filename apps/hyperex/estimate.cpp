@@ -54,8 +54,8 @@ void add_estimate(CLI::App& program) {
   command->add_option("SCENE", options->scene, "The scene (TOML): scan and first recording")
       ->required();
   command->add_option("--recording", options->request.recordings,
-                      "A recording of another expression of the same face (CSV, TRC); can be "
-                      "repeated");
+                      "A recording of another expression of the same face, of the same kind as the "
+                      "scene's; can be repeated");
   command->add_option("--stiffness", options->request.stiffness,
                       "A ratio to find: cheek_L:cheek_R, or cheek_L (to what the scene has there), "
                       "or tissue.region[0] (a scar or painted part of the scene); can be repeated");

@@ -72,10 +72,16 @@ Observation observed(const session::Inputs& in, const std::vector<std::string>& 
   return observe(in.motion, points, errors, name);
 }
 
-std::string name_of(const scene::Scene& scene) {
-  const auto& motion = scene.motion;
-  for (const auto& file : {motion.source.file, motion.recording, motion.openface, motion.arkit})
-    if (!file.empty()) return file.filename().string();
+/// The file of the recording: a further one is of the same kind.
+std::filesystem::path& recording_of(scene::MotionOptions& motion) {
+  for (auto* file : {&motion.recording, &motion.openface, &motion.arkit})
+    if (!file->empty()) return *file;
+  return motion.source.file;
+}
+
+std::string name_of(scene::Scene scene) {
+  const auto& file = recording_of(scene.motion);
+  if (!file.empty()) return file.filename().string();
   return "the embedded recording";
 }
 
@@ -159,9 +165,8 @@ Estimate estimate(const scene::Scene& scene, const Request& request) {
   std::vector<session::Inputs> others;
   for (const auto& file : request.recordings) {
     scene::Scene other = scene;
-    other.motion.source = {.embedded = false, .file = file};
-    for (auto* path : {&other.motion.recording, &other.motion.openface, &other.motion.arkit})
-      path->clear();
+    recording_of(other.motion) = file;
+    other.motion.source.embedded = false;
     others.push_back(session::read_inputs(other));
   }
   Estimate out;

@@ -13,7 +13,8 @@ namespace hyperex::estimate {
 
 /// What the user asks.
 struct Request {
-  /// Recordings of the same face beside the scene's, each of another expression: as motion.file.
+  /// Recordings of the same face beside the scene's, each of another expression, of the same
+  /// kind: points, or weights where the scene has motion.arkit.
   std::vector<std::filesystem::path> recordings;
   /// Parts of the tissue: "cheek_L:cheek_R" is the ratio of two, "cheek_L" that of a part to what
   /// the scene has there, "tissue.region[0]" that of an entry of the scene, as a scar or a painted
