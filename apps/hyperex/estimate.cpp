@@ -12,6 +12,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/estimate/words.hpp"
+#include "hyperex/run/earlier_run.hpp"
 #include "hyperex/scene/scene.hpp"
 
 namespace hyperex::cli {
@@ -25,8 +26,8 @@ struct EstimateOptions {
 };
 
 void run(const EstimateOptions& options) {
-  scene::Scene scene = scene::read_scene(options.scene, options.overrides);
-  std::vector<fs::path> inputs{options.scene, scene.scan.source.file, scene.motion.source.file};
+  const scene::Scene scene = scene::read_scene(options.scene, options.overrides);
+  std::vector<fs::path> inputs = run::files_named_by(scene);
   inputs.insert(inputs.end(), options.request.recordings.begin(), options.request.recordings.end());
   check_outputs({options.out}, inputs);
   check_output_kinds({{options.out, {".json"}, "{", {"\"findings\"", "\"model_error_scale\""}}});

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/estimate/ratio_parts.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -19,7 +21,7 @@ namespace {
 
 /// Where a recording shows no jitter, and the least that is assumed of the head's pose.
 constexpr double kAssumedJitter_m = 2e-4, kLeastShift_m = 1e-4, kLeastTurn_rad = 1e-3;
-constexpr double kDegree = 0.017453292519943295;
+constexpr double kDegree = std::numbers::pi / 180;
 /// A further recording is proposed where it narrows an interval by this much.
 constexpr double kWorthwhile = 0.9;
 
@@ -66,9 +68,9 @@ Observation observed(const session::Inputs& in, const std::vector<std::string>& 
     remarks.push_back(
         fmt::format("{} shows no jitter: {:.1f} mm is assumed", name, 1e3 * kAssumedJitter_m));
   }
-  errors.head_shift_m = std::max(kLeastShift_m, 1e-3 * in.head_shift_uncertainty_mm / kSigmas95);
+  errors.head_shift_m = std::max(kLeastShift_m, 1e-3 * in.head_shift_uncertainty_mm / kWithin95);
   errors.head_turn_rad =
-      std::max(kLeastTurn_rad, kDegree * in.head_turn_uncertainty_deg / kSigmas95);
+      std::max(kLeastTurn_rad, kDegree * in.head_turn_uncertainty_deg / kWithin95);
   return observe(in.motion, points, errors, name);
 }
 
@@ -79,8 +81,8 @@ std::filesystem::path& recording_of(scene::MotionOptions& motion) {
   return motion.source.file;
 }
 
-std::string name_of(scene::Scene scene) {
-  const auto& file = recording_of(scene.motion);
+std::string name_of(scene::MotionOptions motion) {
+  const auto& file = recording_of(motion);
   if (!file.empty()) return file.filename().string();
   return "the embedded recording";
 }
@@ -108,7 +110,7 @@ Finding finding_of(Posterior& posterior, const Mode& mode, const std::vector<Pro
       further, {}, [which](const Proposal& one) { return one.sigma[which]; });
   if (best->sigma[which] < kWorthwhile * found.sigma) {
     out.further = best->expression;
-    const double reach = kSigmas95 * best->sigma[which];
+    const double reach = kWithin95 * best->sigma[which];
     out.further_interval = natural({found.value - reach, found.value + reach}, out.kind);
   }
   return out;
@@ -163,8 +165,11 @@ Estimate estimate(const scene::Scene& scene, const Request& request) {
     question.ratios.push_back(ratio_of(session, asked));
   question.gains = request.gains;
   std::vector<session::Inputs> others;
+  scene::Scene other = session.scene();
+  // Scan and landmarks are known; only the recordings are read.
+  other.given.scan = std::make_shared<const io::Scan>(session.scan());
+  other.given.landmarks = session.inputs().landmarks;
   for (const auto& file : request.recordings) {
-    scene::Scene other = scene;
     recording_of(other.motion) = file;
     other.motion.source.embedded = false;
     others.push_back(session::read_inputs(other));
@@ -172,7 +177,7 @@ Estimate estimate(const scene::Scene& scene, const Request& request) {
   Estimate out;
   const session::Inputs& in = session.inputs();
   out.points = observed_points(session.scene(), in, others);
-  out.recordings.push_back(observed(in, out.points, name_of(scene), out.remarks));
+  out.recordings.push_back(observed(in, out.points, name_of(scene.motion), out.remarks));
   for (std::size_t i = 0; i < others.size(); ++i)
     out.recordings.push_back(
         observed(others[i], out.points, request.recordings[i].filename().string(), out.remarks));

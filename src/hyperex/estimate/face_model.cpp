@@ -51,8 +51,8 @@ std::vector<int> muscles_of(const std::string& gain, const std::vector<muscles::
 FaceModel face_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const simulate::SimulationOptions& options,
                      const std::vector<std::string>& points, const Points& places,
-                     const Question& question, const std::function<void()>& between) {
-  FaceModel out{FaceResponses(mesh, landmarks, options, points, places, question.ratios, between),
+                     const Question& question) {
+  FaceModel out{FaceResponses(mesh, landmarks, options, points, places, question.ratios),
                 simulate::JawKinematics(landmarks),
                 options.muscles.half,
                 {},

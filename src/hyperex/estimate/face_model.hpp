@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -34,6 +33,6 @@ struct FaceModel {
 FaceModel face_model(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const simulate::SimulationOptions& options,
                      const std::vector<std::string>& points, const Points& places,
-                     const Question& question, const std::function<void()>& between = {});
+                     const Question& question);
 
 }  // namespace hyperex::estimate

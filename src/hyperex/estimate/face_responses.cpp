@@ -39,10 +39,8 @@ Eigen::MatrixXd unit_forces(const simulate::CarrierMatrix& carrier, Eigen::Index
 FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                              const simulate::SimulationOptions& options,
                              const std::vector<std::string>& points, const Points& places,
-                             std::vector<StiffnessRatio> ratios,
-                             const std::function<void()>& between)
-    : mesh_(mesh),
-      ratios_(std::move(ratios)),
+                             std::vector<StiffnessRatio> ratios)
+    : ratios_(std::move(ratios)),
       assembler_(mesh.volume.nodes, mesh.volume.tets, options.model.element),
       own_(options.tissue.material(std::size_t(mesh.volume.tets.rows()),
                                    options.model.viscous_form)),
@@ -51,7 +49,7 @@ FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks
   assembler_.assemble(own_, system_);
   const auto model = [&](const simulate::SimulationOptions& with,
                          std::shared_ptr<const fem::NodeOrder> order) {
-    return muscle_model(mesh, landmarks, with, system_.stiffness, std::move(order), between);
+    return muscle_model(mesh, landmarks, with, system_.stiffness, std::move(order));
   };
   const simulate::MuscleModel own = model(options, nullptr);
   lines_ = own.lines();

@@ -2,7 +2,6 @@
 #pragma once
 #include <Eigen/Dense>
 #include <array>
-#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -47,8 +46,7 @@ class FaceResponses {
   /// `places`: P x 3, m, at rest. Mesh and landmarks must outlive this.
   FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const simulate::SimulationOptions& options, const std::vector<std::string>& points,
-                const Points& places, std::vector<StiffnessRatio> ratios,
-                const std::function<void()>& between = {});
+                const Points& places, std::vector<StiffnessRatio> ratios);
 
   const std::vector<muscles::MuscleLine>& lines() const { return lines_; }
   Eigen::Index unknowns() const { return Eigen::Index(ratios_.size()) + 1; }
@@ -68,7 +66,6 @@ class FaceResponses {
   Bands at_points(const Bands& force) const;
   Eigen::VectorXd force(const Acting& acting) const;
 
-  const tissue::TissueMesh& mesh_;
   std::vector<StiffnessRatio> ratios_;
   fem::Assembler assembler_;
   fem::Material own_;  ///< the scene's

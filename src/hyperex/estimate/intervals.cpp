@@ -5,6 +5,8 @@
 #include <cmath>
 #include <functional>
 
+#include "hyperex/core/within_95.hpp"
+
 namespace hyperex::estimate {
 namespace {
 
@@ -26,7 +28,7 @@ double variance(const Mode& mode, Eigen::Index which,
 double profile_end(Posterior& posterior, const Mode& mode, Eigen::Index which, double sigma,
                    double side) {
   const bool is_gain = which >= posterior.unknowns().ratios;
-  double offset = kSigmas95 * sigma;
+  double offset = kWithin95 * sigma;
   Eigen::VectorXd from = mode.x;
   for (int step = 0; step < kMostProfileSteps; ++step) {
     const bool at_bound = is_gain && side < 0 && offset >= mode.x[which];
@@ -34,9 +36,9 @@ double profile_end(Posterior& posterior, const Mode& mode, Eigen::Index which, d
     const Mode there =
         posterior.find(from, {{which, mode.x[which] + side * offset}}, mode.error_scale);
     const double sigmas = std::sqrt(2 * std::max(1e-12, there.cost - mode.cost));
-    if (std::abs(sigmas - kSigmas95) < kEndAccuracy || (at_bound && sigmas < kSigmas95)) break;
+    if (std::abs(sigmas - kWithin95) < kEndAccuracy || (at_bound && sigmas < kWithin95)) break;
     from = there.x;
-    offset *= std::clamp(kSigmas95 / sigmas, 0.5, 2.0);
+    offset *= std::clamp(kWithin95 / sigmas, 0.5, 2.0);
   }
   return mode.x[which] + side * offset;
 }
@@ -60,8 +62,8 @@ AskedInterval interval_of(Posterior& posterior, const Mode& mode, Eigen::Index w
   out.value = mode.x[which];
   Mode released = mode;  // a gain at its bound varies upwards
   released.fixed[std::size_t(which)] = false;
-  out.sigma = std::sqrt(variance(released, which, [](Eigen::Index) { return false; }));
-  out.laplace = {out.value - kSigmas95 * out.sigma, out.value + kSigmas95 * out.sigma};
+  out.sigma = std::sqrt(asked_covariance(released, posterior.unknowns())(which, which));
+  out.laplace = {out.value - kWithin95 * out.sigma, out.value + kWithin95 * out.sigma};
   out.profile = {profile_end(posterior, mode, which, out.sigma, -1),
                  profile_end(posterior, mode, which, out.sigma, 1)};
   if (which >= posterior.unknowns().ratios) out.laplace.low = std::max(0.0, out.laplace.low);

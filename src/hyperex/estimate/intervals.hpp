@@ -7,9 +7,6 @@
 
 namespace hyperex::estimate {
 
-/// Standard deviations from the mean to an end of a 95 % interval.
-inline constexpr double kSigmas95 = 1.96;
-
 /// An interval is an answer where the ends of that of a ratio differ by a factor of at most
 /// kWidestRatio, and those of a gain by at most kWidestGain.
 inline constexpr double kWidestRatio = 2.5, kWidestGain = 0.8;

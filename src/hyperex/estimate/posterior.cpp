@@ -27,15 +27,14 @@ std::vector<Eigen::Index> free_unknowns(const std::vector<char>& fixed) {
 }
 
 Posterior::Posterior(FaceModel& face, std::vector<Observation> observations,
-                     const Assumptions& assumptions, std::function<void()> between)
+                     const Assumptions& assumptions)
     : face_(face),
       observations_(std::move(observations)),
       model_(face, {.ratios = face.responses.unknowns() - 1,
                     .gains = Eigen::Index(face.acts.size()),
                     .muscles = Eigen::Index(face.responses.lines().size()),
                     .recordings = Eigen::Index(observations_.size())}),
-      assumptions_(assumptions),
-      between_(std::move(between)) {}
+      assumptions_(assumptions) {}
 
 Eigen::VectorXd Posterior::start() const {
   const Unknowns& u = model_.unknowns();
@@ -136,6 +135,11 @@ double Posterior::cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precisio
   return out;
 }
 
+/// Observed in all recordings.
+double Posterior::coordinates() const {
+  return double(3 * face_.places.rows()) * double(observations_.size());
+}
+
 Eigen::VectorXd Posterior::lower_bounds() const {
   const Unknowns& u = model_.unknowns();
   Eigen::VectorXd lower =
@@ -153,8 +157,8 @@ Eigen::VectorXd Posterior::expand(const Eigen::MatrixXd& precision, Mode& mode) 
   Eigen::VectorXd gradient = precision * off;
   mode.cost = 0.5 * off.dot(gradient);
   mode.hessian = precision;
+  mode.weighed_squares = 0;
   double squares = 0;
-  Eigen::Index coordinates = 0;
   for (std::size_t e = 0; e < observations_.size(); ++e) {
     const auto error = errors(observations_[e], mode.error_scale);
     const Eigen::VectorXd plain =
@@ -164,11 +168,11 @@ Eigen::VectorXd Posterior::expand(const Eigen::MatrixXd& precision, Mode& mode) 
         error.matrixL().solve(model_.derivative(mode.x, Eigen::Index(e)));
     mode.hessian.noalias() += derivative.transpose() * derivative;
     gradient.noalias() -= derivative.transpose() * residual;
-    mode.cost += 0.5 * residual.squaredNorm();
+    mode.weighed_squares += residual.squaredNorm();
     squares += plain.squaredNorm();
-    coordinates += plain.size();
   }
-  mode.rms_m = std::sqrt(squares / double(coordinates));
+  mode.cost += 0.5 * mode.weighed_squares;
+  mode.rms_m = std::sqrt(squares / coordinates());
   return gradient;
 }
 
@@ -180,7 +184,6 @@ Mode Posterior::minimum(Eigen::VectorXd x, const std::vector<char>& held, double
   mode.x = std::move(x);
   mode.error_scale = scale;
   for (;; ++mode.iterations) {
-    if (between_) between_();
     const Eigen::MatrixXd precision = prior_precision(mode.x);
     const Eigen::VectorXd gradient = expand(precision, mode)(free);
     const Eigen::MatrixXd h = mode.hessian(free, free);
@@ -231,15 +234,8 @@ Mode Posterior::find(const Eigen::VectorXd& start,
     const std::vector<Eigen::Index> free = free_unknowns(mode.fixed);
     const Eigen::MatrixXd all = information(mode);
     const Eigen::MatrixXd taken = mode.hessian(free, free).llt().solve(all(free, free));
-    double squares = 0, coordinates = 0;
-    for (std::size_t e = 0; e < observations_.size(); ++e) {
-      const Eigen::VectorXd plain =
-          observations_[e].displacement_m - model_.displacement(mode.x, Eigen::Index(e));
-      squares += errors(observations_[e], scale).matrixL().solve(plain).squaredNorm();
-      coordinates += double(plain.size());
-    }
-    const double freedom = std::max(1.0, coordinates - taken.trace());
-    const double next = std::max(1.0, scale * std::sqrt(squares / freedom));
+    const double freedom = std::max(1.0, coordinates() - taken.trace());
+    const double next = std::max(1.0, scale * std::sqrt(mode.weighed_squares / freedom));
     if (std::abs(next - scale) < 0.05 * scale) break;
     scale = next;
     mode = minimum(mode.x, fixed, scale, enough);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <Eigen/Dense>
-#include <functional>
 #include <vector>
 
 #include "hyperex/estimate/assumptions.hpp"
@@ -13,11 +12,12 @@ namespace hyperex::estimate {
 /// A mode of the posterior.
 struct Mode {
   Eigen::VectorXd x;
-  double cost = 0;          ///< minus its logarithm, but for a constant
-  Eigen::MatrixXd hessian;  ///< Gauss-Newton, of all unknowns
-  std::vector<char> fixed;  ///< per unknown: held, or at a bound
-  double error_scale = 1;   ///< of the model's errors (1 sigma) over those of Assumptions
-  double rms_m = 0;         ///< of observed less modelled coordinates
+  double cost = 0;             ///< minus its logarithm, but for a constant
+  Eigen::MatrixXd hessian;     ///< Gauss-Newton, of all unknowns
+  std::vector<char> fixed;     ///< per unknown: held, or at a bound
+  double weighed_squares = 0;  ///< of the residuals, in units of their errors
+  double error_scale = 1;      ///< of the model's errors (1 sigma) over those of Assumptions
+  double rms_m = 0;            ///< of observed less modelled coordinates
   int iterations = 0;
 };
 
@@ -38,10 +38,8 @@ std::vector<Eigen::Index> free_unknowns(const std::vector<char>& fixed);
 /// but those of muscles with tone, gains are >= 0.
 class Posterior {
  public:
-  /// `face` must outlive this. `between` (may be empty) is called at each iteration; it may throw,
-  /// which ends the search.
-  Posterior(FaceModel& face, std::vector<Observation> observations, const Assumptions& assumptions,
-            std::function<void()> between = {});
+  /// `face` must outlive this.
+  Posterior(FaceModel& face, std::vector<Observation> observations, const Assumptions& assumptions);
 
   /// From `start`; those of `held` (index and value) stay. Gauss-Newton with steps that are halved
   /// until the cost falls. `error_scale`: 0 finds it.
@@ -62,6 +60,7 @@ class Posterior {
  private:
   Eigen::LLT<Eigen::MatrixXd> errors(const Observation& observation, double scale) const;
   double cost(const Eigen::VectorXd& x, const Eigen::MatrixXd& precision, double scale);
+  double coordinates() const;
   Eigen::VectorXd lower_bounds() const;
   Eigen::VectorXd expand(const Eigen::MatrixXd& precision, Mode& mode);
   Mode minimum(Eigen::VectorXd x, const std::vector<char>& held, double scale, double enough);
@@ -70,7 +69,6 @@ class Posterior {
   std::vector<Observation> observations_;
   RecordingModel model_;
   Assumptions assumptions_;
-  std::function<void()> between_;
 };
 
 }  // namespace hyperex::estimate

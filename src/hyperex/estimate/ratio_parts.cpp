@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/unknown_names.hpp"
+#include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::estimate {
 namespace {
@@ -38,9 +39,14 @@ tissue::TissueRegion region_of(const scene::Scene& scene, const std::string& ask
                                 scene.tissue.regions.size()));
     region = scene.tissue.regions[std::size_t(index)];
     region.value = region.factor = {};
-  } else {
-    region.name = part;
+    return region;
   }
+  if (!tissue::is_region(part)) {
+    const std::string near = session::nearest_region(part);
+    refuse(asked, "names of parts of the face (hyperex presets lists them)" +
+                      (near.empty() ? "" : "; did you mean " + near + "?"));
+  }
+  region.name = part;
   return region;
 }
 
@@ -54,14 +60,7 @@ std::vector<double> shares(session::FaceSession& session, const std::string& ask
   doubled.tissue.regions = {region};
   const auto tets = std::size_t(session.mesh().volume.tets.rows());
   const double plain = tissue::default_parameters[tissue::young];
-  std::vector<double> out;
-  try {
-    out = session.tissue_of(doubled).element[tissue::young];
-  } catch (const InputError&) {
-    const std::string near = session::nearest_region(part);
-    refuse(asked, "names of parts of the face (hyperex presets lists them)" +
-                      (near.empty() ? "" : "; did you mean " + near + "?"));
-  }
+  std::vector<double> out = session.tissue_of(doubled).element[tissue::young];
   if (out.size() != tets) refuse(asked, "a part of the face that the scan has");
   for (double& young : out) young = std::clamp(young / plain - 1, 0.0, 1.0);
   return out;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
@@ -138,7 +139,7 @@ PairExcursion pair_of(const motion::Motion& motion, int left, int right, double 
   pair.path_ratio = ratio(r.path_mm, l.path_mm);
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
   judge_speeds(motion, floor, lowpass_hz, pair);
-  pair.jitter_floor_mm = 1.96 * 2 * 1e3 * jitter_m;
+  pair.jitter_floor_mm = kWithin95 * 2 * 1e3 * jitter_m;
   pair.judge();
   return pair;
 }

@@ -4,14 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/metrics/point_pairs.hpp"
 
 namespace hyperex::metrics {
 namespace {
 
 using Row6 = Eigen::Matrix<double, 1, 6>;
-
-constexpr double kWithin95 = 1.96;
 
 /// How a point's greatest excursion changes with an error of the pose in that sample.
 struct Sensitivity {

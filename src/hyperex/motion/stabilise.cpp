@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
@@ -28,8 +29,6 @@ constexpr double kResidualFloor = 1e-5;
 const std::vector<std::string> kNoseTip = {face::ibug(30), "pronasale"};
 // The spread of the eye corners alone about their line is smaller than this.
 constexpr double kWellSpread = 0.2;
-// 95 % of a Gaussian lie within this many standard deviations of the mean.
-constexpr double kWithin95 = 1.96;
 // By how much real and synthetic expressions exceeded the prior's bounds, see docs/tracking.md.
 constexpr double kBeyondPrior = 2;
 

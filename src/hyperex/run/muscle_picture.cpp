@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "hyperex/core/run_together.hpp"
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -45,7 +46,6 @@ class AtPeak {
   double activation(const std::string& name) const { return at(course_.activation, name); }
   /// Whether its 95 % interval leaves 0 out.
   bool known(const std::string& name) const {
-    constexpr double kWithin95 = 1.96;
     return std::abs(activation(name)) > kWithin95 * at(course_.sigma, name);
   }
 

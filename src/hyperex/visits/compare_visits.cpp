@@ -6,12 +6,12 @@
 #include <cmath>
 #include <utility>
 
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/motion/uncertain_pose.hpp"
 
 namespace hyperex::visits {
 namespace {
 
-constexpr double kWithin95 = 1.96;
 constexpr double kStep = 1e-6;  // of central differences, m and rad
 
 using Row3 = Eigen::RowVector3d;

@@ -11,6 +11,7 @@
 #include <random>
 
 #include "estimate/estimate_twin.hpp"
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/intervals.hpp"
 #include "hyperex/estimate/posterior.hpp"
 
@@ -41,8 +42,8 @@ struct Tally {
   double squared_z = 0, squared_error = 0, sigma = 0;
 
   void add(double error, double s, double widest) {
-    inside += std::abs(error) < kSigmas95 * s;
-    determined += 2 * kSigmas95 * s <= widest;
+    inside += std::abs(error) < kWithin95 * s;
+    determined += 2 * kWithin95 * s <= widest;
     squared_z += error * error / (s * s);
     squared_error += error * error;
     sigma += s;

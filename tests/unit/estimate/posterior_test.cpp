@@ -8,6 +8,7 @@
 #include <random>
 
 #include "estimate/estimate_twin.hpp"
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/intervals.hpp"
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -157,7 +158,7 @@ TEST(Posterior, WhatMovesThePointsAlikeIsNotToldApart) {
                       {});
   const Mode mode = posterior.find(posterior.start(), {});
   const Eigen::MatrixXd c = asked_covariance(mode, posterior.unknowns());
-  EXPECT_GT(2 * kSigmas95 * std::sqrt(c(1, 1)), kWidestGain);
+  EXPECT_GT(2 * kWithin95 * std::sqrt(c(1, 1)), kWidestGain);
   EXPECT_LT(c(0, 1), 0) << "more of one is less of the other";
 }
 

@@ -19,7 +19,7 @@ export class WhatIf {
   presets: Preset[] = [];
   readonly menu: Menu;
 
-  /** `strengthChanged`: a face was made with another strength of what muscles.gain so names. */
+  /** `strengthChanged` is called with the name of a muscle, branch or side after a variant with another strength of it was added. */
   constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly strengthChanged: (gain: string) => void) {
     this.menu = menuOf(at('what-if'), words.whatIf, (sheet, close) => {
       const [sides, ...muscles] = this.strengths((gain, percent) => tryChange(() => this.addWeaker(gain, percent)));
