@@ -117,13 +117,18 @@ void bind_excursions(py::module_& m) {
   m.def(
       "change_of",
       [](const PairExcursion& before, const PairExcursion& after, const std::string& side,
-         double jitter_m) {
+         const py::object& jitter_m) {
+        if (!jitter_m.is_none() &&
+            PyErr_WarnEx(PyExc_DeprecationWarning,
+                         "jitter_m has no effect: the jitter counts with which excursions_of() "
+                         "made `before`",
+                         1) != 0)
+          throw py::error_already_set();
         if (side != "L" && side != "R")
           throw InputError(InputProblem{{}, 0, "side", side, "\"L\" or \"R\""});
-        refuse_unless(jitter_m >= 0, "jitter_m", jitter_m, "a number from 0 (m)");
-        return change_of(before, after, side == "L" ? Side::left : Side::right, jitter_m);
+        return change_of(before, after, side == "L" ? Side::left : Side::right);
       },
-      "before"_a, "after"_a, "side"_a, "jitter_m"_a = 0.0,
+      "before"_a, "after"_a, "side"_a, "jitter_m"_a = py::none(),
       "What the excursion of a side changes by from one run to another of the same recording, and "
       "its band: the ± of `hyperex run`.");
   m.def("write_excursions_csv", &write_excursions_csv, "file"_a, "excursions"_a, Unlocked(),

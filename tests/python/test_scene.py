@@ -125,12 +125,14 @@ class Measures(unittest.TestCase):
 
         soft, stiff = pairs(1), pairs(3)
         for side in "LR":
-            change = hyperex.change_of(soft["cheek"], stiff["cheek"], side, 1e-4)
+            change = hyperex.change_of(soft["cheek"], stiff["cheek"], side)
             before, after = (getattr(p["cheek"], {"L": "left", "R": "right"}[side]).excursion_mm
                              for p in (soft, stiff))
             self.assertAlmostEqual(change.change_mm, after - before, 12)
             self.assertGreater(change.band_mm, 0.1)
             self.assertEqual(change.decided, abs(change.change_mm) > change.band_mm)
+        with self.assertWarns(DeprecationWarning):
+            hyperex.change_of(soft["cheek"], stiff["cheek"], "L", 1e-4)
         alone = hyperex.excursions_of(simulator.run().landmarks)["cheek"]
         self.assertTrue(np.isnan(hyperex.change_of(alone, alone, "L").band_mm))
         self.assertIsNone(hyperex.change_of(alone, alone, "L").decided)

@@ -2,7 +2,9 @@
 #include "hyperex/metrics/excursion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/face/same_place.hpp"
@@ -21,11 +23,16 @@ Eigen::RowVector3d place(const motion::Motion& motion, size_t sample,
   return sum / static_cast<double>(columns.size());
 }
 
-double greatest(const std::vector<double>& values) {
-  double most = kNan;
-  for (const double value : values)
-    if (!(value <= most)) most = std::isnan(value) ? most : value;
+/// 0 if no value is a number.
+std::size_t index_of_greatest(const std::vector<double>& values) {
+  std::size_t most = 0;
+  for (std::size_t k = 1; k < values.size(); ++k)
+    if (!(values[k] <= values[most]) && !std::isnan(values[k])) most = k;
   return most;
+}
+
+double greatest(const std::vector<double>& values) {
+  return values.empty() ? kNan : values[index_of_greatest(values)];
 }
 
 SmoothTrack smoothed_mm(const motion::Motion& motion, const std::vector<int>& columns,
@@ -36,17 +43,31 @@ SmoothTrack smoothed_mm(const motion::Motion& motion, const std::vector<int>& co
   return lowpassed(motion.time_s, track, lowpass_hz);
 }
 
-SideExcursion side_of(const motion::Motion& motion, int column, double lowpass_hz) {
+/// The smoothed path of a point, mm, with its distance from the first sample and its speed.
+struct Path {
+  Points position_mm;
+  std::vector<double> distance_mm, speed_mm_s;
+};
+
+Path path_of(const motion::Motion& motion, int column, double lowpass_hz) {
+  const SmoothTrack track = smoothed_mm(motion, {column}, lowpass_hz);
+  Path path{track.value, {}, {}};
+  for (Eigen::Index k = 0; k < track.value.rows(); ++k) {
+    path.distance_mm.push_back((track.value.row(k) - track.value.row(0)).norm());
+    path.speed_mm_s.push_back(track.rate.row(k).norm());
+  }
+  return path;
+}
+
+SideExcursion side_of(const motion::Motion& motion, const Path& path, double lowpass_hz) {
   SideExcursion side;
-  side.excursion_mm = greatest(distance_from_rest_mm(motion, {column}));
-  side.peak_speed_mm_s =
-      greatest_inside(motion.time_s, speed_mm_s(motion, {column}, lowpass_hz), lowpass_hz);
-  const Points track = smoothed_mm(motion, {column}, lowpass_hz).value;
-  Eigen::RowVector3d last = track.row(0);
-  for (Eigen::Index k = 0; k < track.rows(); ++k)
-    if (track.row(k).allFinite()) {
-      side.path_mm += (track.row(k) - last).norm();
-      last = track.row(k);
+  side.excursion_mm = greatest(path.distance_mm);
+  side.peak_speed_mm_s = greatest_inside(motion.time_s, path.speed_mm_s, lowpass_hz);
+  Eigen::RowVector3d last = path.position_mm.row(0);
+  for (Eigen::Index k = 0; k < path.position_mm.rows(); ++k)
+    if (path.position_mm.row(k).allFinite()) {
+      side.path_mm += (path.position_mm.row(k) - last).norm();
+      last = path.position_mm.row(k);
     }
   return side;
 }
@@ -102,15 +123,14 @@ double correlation(const std::vector<double>& a, const std::vector<double>& b) {
   return n > 2 && aa > still * n && bb > still * n ? ab / std::sqrt(aa * bb) : kNan;
 }
 
-void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double lowpass_hz,
-                  PairExcursion& pair) {
-  const auto left = speed_mm_s(motion, {pair.left}, lowpass_hz);
-  const auto right = speed_mm_s(motion, {pair.right}, lowpass_hz);
+void judge_speeds(const motion::Motion& motion, const std::vector<double>& left,
+                  const std::vector<double>& right, const SpeedFloor& floor, PairExcursion& pair) {
   pair.speed_correlation = correlation(left, right);
   if (!(floor.rms_mm_s > 0)) return;
   const double quiet =
       std::fmin(quietest_rms(motion.time_s, left), quietest_rms(motion.time_s, right));
   const double wider = std::fmax(1, quiet / floor.rms_mm_s);
+  pair.jitter_widening = wider;
   const SideExcursion &l = pair.left_side, &r = pair.right_side;
   pair.peak_speed_floor_mm_s = wider * floor.peak_mm_s;
   pair.path_floor_mm = wider * floor.path_mm;
@@ -127,31 +147,46 @@ void judge_speeds(const motion::Motion& motion, const SpeedFloor& floor, double 
   if (l.peak_speed_mm_s < pair.peak_speed_floor_mm_s) pair.speed_ratio = kNan;
 }
 
+/// Four positions, each with the noise that the filter leaves of it. Jitter that lasts longer than
+/// white noise would is not filtered away.
+double jitter_floor_mm(const motion::Motion& motion, const std::array<const Path*, 2>& sides,
+                       double widening, double jitter_m, double lowpass_hz) {
+  if (!(jitter_m > 0)) return 0;
+  double variance = 0;
+  for (const Path* side : sides)
+    for (const std::size_t sample : {std::size_t(0), index_of_greatest(side->distance_mm)}) {
+      const double share = lowpassed_noise(motion.time_s, sample, lowpass_hz);
+      variance += std::pow(std::fmin(1, widening * share), 2);
+    }
+  return kWithin95 * 1e3 * jitter_m * std::sqrt(variance);
+}
+
 PairExcursion pair_of(const motion::Motion& motion, int left, int right, double jitter_m,
                       const SpeedFloor& floor, double lowpass_hz) {
   PairExcursion pair;
   pair.left = left;
   pair.right = right;
-  pair.left_side = side_of(motion, left, lowpass_hz);
-  pair.right_side = side_of(motion, right, lowpass_hz);
+  const Path left_path = path_of(motion, left, lowpass_hz),
+             right_path = path_of(motion, right, lowpass_hz);
+  pair.left_side = side_of(motion, left_path, lowpass_hz);
+  pair.right_side = side_of(motion, right_path, lowpass_hz);
   const SideExcursion &l = pair.left_side, &r = pair.right_side;
   pair.excursion_ratio = ratio(r.excursion_mm, l.excursion_mm);
   pair.path_ratio = ratio(r.path_mm, l.path_mm);
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
-  judge_speeds(motion, floor, lowpass_hz, pair);
-  pair.jitter_floor_mm = kWithin95 * 2 * 1e3 * jitter_m;
+  judge_speeds(motion, left_path.speed_mm_s, right_path.speed_mm_s, floor, pair);
+  pair.jitter_floor_mm = jitter_floor_mm(motion, {&left_path, &right_path}, pair.jitter_widening,
+                                         jitter_m, lowpass_hz);
   pair.judge();
   return pair;
 }
 
-double change_of_distance_mm(const motion::Motion& motion, int a, int b) {
+/// `a`, `b`: positions over time, mm.
+double change_of_distance_mm(const Points& a, const Points& b) {
   double most = kNan;
-  const auto length = [&](const Points& sample) {
-    return 1e3 * (sample.row(a) - sample.row(b)).norm();
-  };
-  const double rest = length(motion.positions.front());
-  for (const Points& sample : motion.positions) {
-    const double change = length(sample) - rest;
+  const double rest = (a.row(0) - b.row(0)).norm();
+  for (Eigen::Index k = 0; k < a.rows(); ++k) {
+    const double change = (a.row(k) - b.row(k)).norm() - rest;
     if (!std::isnan(change) && !(std::abs(change) <= std::abs(most))) most = change;
   }
   return most;
@@ -167,14 +202,17 @@ Commissure commissure_of(const motion::Motion& motion, double lowpass_hz) {
   mouth.right = either("cheilion_R");
   mouth.left_from_midlip_mm = mouth.right_from_midlip_mm = kNan;
   if (mouth.left < 0 || mouth.right < 0) return mouth;
-  mouth.left_mm = distance_from_rest_mm(motion, {mouth.left});
-  mouth.right_mm = distance_from_rest_mm(motion, {mouth.right});
-  mouth.left_mm_s = speed_mm_s(motion, {mouth.left}, lowpass_hz);
-  mouth.right_mm_s = speed_mm_s(motion, {mouth.right}, lowpass_hz);
-  const int lip = either("labiale_inferius");
-  if (lip < 0) return mouth;
-  mouth.left_from_midlip_mm = change_of_distance_mm(motion, mouth.left, lip);
-  mouth.right_from_midlip_mm = change_of_distance_mm(motion, mouth.right, lip);
+  Path left = path_of(motion, mouth.left, lowpass_hz),
+       right = path_of(motion, mouth.right, lowpass_hz);
+  if (const int lip = either("labiale_inferius"); lip >= 0) {
+    const Points lip_mm = smoothed_mm(motion, {lip}, lowpass_hz).value;
+    mouth.left_from_midlip_mm = change_of_distance_mm(left.position_mm, lip_mm);
+    mouth.right_from_midlip_mm = change_of_distance_mm(right.position_mm, lip_mm);
+  }
+  mouth.left_mm = std::move(left.distance_mm);
+  mouth.right_mm = std::move(right.distance_mm);
+  mouth.left_mm_s = std::move(left.speed_mm_s);
+  mouth.right_mm_s = std::move(right.speed_mm_s);
   return mouth;
 }
 
@@ -185,14 +223,6 @@ std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
   std::vector<double> out;
   for (size_t k = 0; k < motion.positions.size(); ++k)
     out.push_back(1e3 * (place(motion, k, columns) - place(motion, 0, columns)).norm());
-  return out;
-}
-
-std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns,
-                               double lowpass_hz) {
-  const SmoothTrack track = smoothed_mm(motion, columns, lowpass_hz);
-  std::vector<double> out;
-  for (Eigen::Index k = 0; k < track.rate.rows(); ++k) out.push_back(track.rate.row(k).norm());
   return out;
 }
 

@@ -18,16 +18,8 @@ constexpr double kUsualLowpass_hz = 6;
 /// is the mean of `columns`. NaN where it is not measured.
 std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
                                           const std::vector<int>& columns);
-/// Speed of the point, mm/s, smoothed by lowpassed() (lowpass.hpp). With `lowpass_hz` = 0, it is
-/// not smoothed:
-///   |x(k+1) - x(k-1)| / (t(k+1) - t(k-1)),
-/// one-sided at both ends. NaN if a sample that is needed is not measured, and for a motion of a
-/// single sample.
-std::vector<double> speed_mm_s(const motion::Motion& motion, const std::vector<int>& columns,
-                               double lowpass_hz = 0);
-
 struct SideExcursion {
-  double excursion_mm = 0;     ///< largest distance from the place in the first sample
+  double excursion_mm = 0;     ///< largest distance of the smoothed path from its first sample
   double path_mm = 0;          ///< length of the smoothed path over all samples
   double peak_speed_mm_s = 0;  ///< largest smoothed speed, excluding both ends (greatest_inside)
 };
@@ -51,9 +43,13 @@ struct PairExcursion {
   /// with n the share of jitter in the variance of a speed over time.
   bool speed_correlation_undecided = false;
   /// For a symmetric motion, 95 % of the differences between the two excursions that jitter alone
-  /// produces are below this: 1.96 * 2 jitter (two positions per side, to first order along the
-  /// path). 0 if the jitter is unknown.
+  /// produces are below this: 1.96 jitter sqrt(sum of n^2) over two positions per side, to first
+  /// order along the path. n is the noise that the filter leaves (lowpassed_noise) times
+  /// `jitter_widening`, at most 1. 0 if the jitter is unknown.
   double jitter_floor_mm = 0;
+  /// Greatest speed of the quieter side in its quietest half second, relative to white jitter, at
+  /// least 1.
+  double jitter_widening = 1;
   /// NaN: no floor known (mesh_floor.hpp).
   double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();
   /// How far an error of the head's pose may part the two excursions, 95 %; 0: no head pose was
@@ -79,7 +75,7 @@ struct PairExcursion {
 /// The clinical measure of a smile: the excursion of the corners of the mouth.
 struct Commissure {
   int left = -1, right = -1;  ///< columns: cheilion, or ibug68_54 and 48; -1 where there is none
-  std::vector<double> left_mm, right_mm;      ///< distance from rest, one value per sample
+  std::vector<double> left_mm, right_mm;      ///< distance from rest, smoothed, per sample
   std::vector<double> left_mm_s, right_mm_s;  ///< speed
   double left_from_midlip_mm = 0, right_from_midlip_mm = 0;  ///< see Excursions::commissure
 };
@@ -92,13 +88,13 @@ struct Excursions {
   /// counts; the sign is kept.
   Commissure commissure;
   double jitter_m = 0;
-  double lowpass_hz = 0;  ///< cut-off used to smooth speeds and paths; 0: not smoothed
+  double lowpass_hz = 0;  ///< cut-off used to smooth all positions; 0: not smoothed
 };
 
 /// The excursions of all pairs of points of a motion without head pose: NAME_L and NAME_R, and
 /// mirrored iBUG-68 points, named ibug68_K, K or pK. Pairs that are not measured in the first
-/// sample are omitted. L and R are the subject's own sides. If jitter_m is above 0, speeds and
-/// paths are smoothed with the cut-off `lowpass_hz` (>= 0; 0: not smoothed); an exact motion is
+/// sample are omitted. L and R are the subject's own sides. If jitter_m is above 0, all
+/// figures are of tracks smoothed with the cut-off `lowpass_hz` (>= 0; 0: not smoothed); an exact motion is
 /// never smoothed.
 Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
                          double lowpass_hz = kUsualLowpass_hz);

@@ -108,6 +108,12 @@ double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, do
   return response.cwiseProduct(weight).norm() / weight(at);
 }
 
+double jitter_left(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz) {
+  const double rest = lowpassed_noise(time_s, 0, cutoff_hz),
+               now = lowpassed_noise(time_s, sample, cutoff_hz);
+  return (rest * rest + now * now) / 2;
+}
+
 double end_margin_s(double cutoff_hz) {
   return cutoff_hz > 0 ? 0.5 / cutoff_hz : 0;
 }

@@ -30,6 +30,10 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
 /// matrix W of the h_i, so that the row of a sample follows from the response to an impulse there.
 double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
 
+/// The share of the variance of white noise that filtering leaves in the difference between a
+/// sample and the first one, taken as independent.
+double jitter_left(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
+
 /// Half a period of the cut-off frequency, s; 0 for a cut-off of 0.
 double end_margin_s(double cutoff_hz);
 

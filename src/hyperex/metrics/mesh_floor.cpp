@@ -87,8 +87,7 @@ double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base)
   return most;
 }
 
-ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side,
-                          double jitter_m) {
+ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side) {
   const bool left = side == Side::left;
   const auto excursion = [&](const PairExcursion& pair) {
     return (left ? pair.left_side : pair.right_side).excursion_mm;
@@ -99,7 +98,7 @@ ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Si
   ExcursionChange change{excursion(from), excursion(to)};
   const double mesh_mm = change.change_mm() - (of_twin(to) - of_twin(from));
   const double scaled = change.from_mm > 0 ? std::abs(change.to_mm / change.from_mm - 1) : 0;
-  const double jitter_mm = 1e3 * two_sided_95 * std::sqrt(2.0) * jitter_m * scaled;
+  const double jitter_mm = from.jitter_floor_mm / std::sqrt(2.0) * scaled;
   change.band_mm = std::hypot(mesh_mm, jitter_mm) + 1e3 * kResolution_m;
   return change;
 }

@@ -56,8 +56,8 @@ struct ExcursionChange {
   double from_mm = 0, to_mm = 0;
   /// Uncertainty of the change (mm). It combines two contributions as the root of the sum of
   /// squares and adds kResolution_m. That of the mesh is |(to - from) - (to' - from')|, from the
-  /// mirrored twins (one sample). That of the recording's jitter is 1.96 sqrt(2) jitter |to / from
-  /// - 1| (95 %); this form applies because both runs share the jitter, which a changed face
+  /// mirrored twins (one sample). That of the recording's jitter is |to / from - 1| times one
+  /// side's part of the jitter floor (95 %); this form applies because both runs share the jitter, which a changed face
   /// scales. NaN without twins. Errors of tissue or muscles are not included.
   double band_mm = 0;
   double change_mm() const { return to_mm - from_mm; }
@@ -67,7 +67,6 @@ struct ExcursionChange {
   }
 };
 /// The change for one pair of points in two runs. add_mesh_floor() must have been applied to both.
-ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side,
-                          double jitter_m);
+ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side);
 
 }  // namespace hyperex::metrics

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "hyperex/core/within_95.hpp"
+#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/point_pairs.hpp"
 
 namespace hyperex::metrics {
@@ -37,13 +38,14 @@ Sensitivity sensitivity_of(const motion::Motion& steady,
 }  // namespace
 
 double excursion_pose_floor_mm(const motion::Motion& steady,
-                               const std::vector<motion::UncertainPose>& poses, int left,
-                               int right) {
+                               const std::vector<motion::UncertainPose>& poses, int left, int right,
+                               double lowpass_hz) {
   if (poses.size() != steady.positions.size() || poses.empty()) return 0;
   const Sensitivity l = sensitivity_of(steady, poses, left),
                     r = sensitivity_of(steady, poses, right);
   const auto variance = [&](const Row6& row, std::size_t sample) -> double {
-    return row * poses[sample].covariance * row.transpose();
+    const double share = jitter_left(steady.time_s, sample, lowpass_hz);
+    return row * poses[sample].filtered(share) * row.transpose();
   };
   const double all = l.sample == r.sample ? variance(l.row - r.row, l.sample)
                                           : variance(l.row, l.sample) + variance(r.row, r.sample);
@@ -51,10 +53,11 @@ double excursion_pose_floor_mm(const motion::Motion& steady,
 }
 
 std::map<std::string, double> pose_floors_mm(const motion::Motion& steady,
-                                             const std::vector<motion::UncertainPose>& poses) {
+                                             const std::vector<motion::UncertainPose>& poses,
+                                             double lowpass_hz) {
   std::map<std::string, double> floors;
   for (const PointPair& pair : point_pairs(steady))
-    floors[pair.name] = excursion_pose_floor_mm(steady, poses, pair.left, pair.right);
+    floors[pair.name] = excursion_pose_floor_mm(steady, poses, pair.left, pair.right, lowpass_hz);
   return floors;
 }
 

@@ -13,16 +13,18 @@ namespace hyperex::metrics {
 /// order an error e of the pose (rotation, translation) changes the excursion of a point at p,
 /// which goes in the direction d, by
 ///   d' A(p - c) e,   A: motion::pose_derivative, c: the centre of the rotation.
-/// The variance of the difference between both sides follows from the covariance of e; errors of
-/// different samples are taken as independent. `steady`: without head pose. `poses`: as
-/// motion::StabilisedMotion has them, one per sample; 0 where there are none.
+/// The variance of the difference between both sides follows from the covariance of e, less what
+/// filtering takes of jitter's part; errors of different samples are taken as independent.
+/// `steady`: without head pose. `poses`: as motion::StabilisedMotion has them, one per sample; 0
+/// where there are none. `lowpass_hz`: cut-off with which excursions are filtered; 0: they are not.
 double excursion_pose_floor_mm(const motion::Motion& steady,
-                               const std::vector<motion::UncertainPose>& poses, int left,
-                               int right);
+                               const std::vector<motion::UncertainPose>& poses, int left, int right,
+                               double lowpass_hz);
 
 /// The floors of all pairs by their names.
 std::map<std::string, double> pose_floors_mm(const motion::Motion& steady,
-                                             const std::vector<motion::UncertainPose>& poses);
+                                             const std::vector<motion::UncertainPose>& poses,
+                                             double lowpass_hz);
 
 /// Sets pose_floor_mm of each pair and judges it again. A pair that `floors_mm` does not name gets
 /// the greatest of them.

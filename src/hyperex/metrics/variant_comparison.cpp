@@ -114,7 +114,7 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
     if (const int left = excursions.pairs[i].left;
         left >= 0 && left == excursions.commissure.left) {
       const auto change = [&](Side side) {
-        return change_of(before.pairs.at(i), excursions.pairs[i], side, before.jitter_m);
+        return change_of(before.pairs.at(i), excursions.pairs[i], side);
       };
       c.commissure_left = change(Side::left);
       c.commissure_right = change(Side::right);

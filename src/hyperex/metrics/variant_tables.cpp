@@ -77,7 +77,7 @@ void write_variant_excursions_csv(const std::filesystem::path& file, const Excur
       for (std::size_t i = 0; i < base.pairs.size(); ++i)
         for (const Side side : {Side::right, Side::left}) {
           const PairExcursion& pair = variant.excursions.pairs.at(i);
-          const auto change = change_of(base.pairs[i], pair, side, base.jitter_m);
+          const auto change = change_of(base.pairs[i], pair, side);
           fmt::print(out, "{},{},{},{},{},{},{},{}\n", io::in_quotes_where_needed(variant.name),
                      io::in_quotes_where_needed(pair.name), side == Side::left ? 'L' : 'R',
                      cell(change.from_mm), cell(change.to_mm), cell(change.change_mm()),

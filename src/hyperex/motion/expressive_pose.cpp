@@ -114,7 +114,14 @@ class Witnesses {
       move.translate(-centre_);
       pose = pose * move;
     }
-    return {pose, w.covariance, centre_};
+    return {pose, w.covariance, of_jitter(w), centre_};
+  }
+
+  /// The part of the covariance that the jitter makes: K (2 s^2 I) K', where K = (J' S^-1 J)^-1 J'
+  /// S^-1 are the weights of the residuals in the pose.
+  Matrix6 of_jitter(const Weighing& w) const {
+    const Eigen::MatrixXd weights = w.factor.matrixU().solve(w.whitened) * w.covariance;
+    return variance_ * weights.transpose() * weights;
   }
 
  private:
@@ -271,7 +278,11 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
         witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
     // A motion of the brows that was taken for a motion of the head leaves no trace in the lower
     // face.
-    if (a[0] > a[1]) poses.back().covariance = witnesses.weigh({a[0], a[0]}).covariance;
+    if (a[0] > a[1]) {
+      const Witnesses::Weighing wide = witnesses.weigh({a[0], a[0]});
+      poses.back().covariance = wide.covariance;
+      poses.back().of_jitter = witnesses.of_jitter(wide);
+    }
     progress.update(long(samples + k + 1));
   }
   return poses;

@@ -152,7 +152,9 @@ Eigen::VectorXd weights_of(const Pairs& pairs, const Eigen::VectorXd& weights) {
 /// independently.
 UncertainPose with_covariance(const Pairs& pairs, const Eigen::VectorXd& weights,
                               const Eigen::Isometry3d& pose) {
-  UncertainPose known{pose, {}, pairs.reference.colwise().mean().transpose()};
+  UncertainPose known;
+  known.pose = pose;
+  known.centre = pairs.reference.colwise().mean().transpose();
   Eigen::Matrix<double, 6, 6> normal = Eigen::Matrix<double, 6, 6>::Zero();
   double sum = 0;
   for (Eigen::Index i = 0; i < weights.size(); ++i) {
@@ -194,6 +196,7 @@ void take_out(const std::vector<UncertainPose>& poses, double widening, Stabilis
     result.motion.head_pose.push_back(at.pose);
     result.poses.push_back(at);
     result.poses.back().covariance *= k == 0 ? 0 : widening * widening;
+    result.poses.back().of_jitter *= k == 0 ? 0 : widening * widening;
     double variance = 0, count = 0;
     for (Eigen::Index p = 0; p < seen.rows(); ++p)
       if (seen.row(p).allFinite()) {

@@ -260,7 +260,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   settle_points(columns, tracks, peak, face);
   settle_noise(columns, smooth.time_s, peak, cutoff_hz, face);
   if (!steady.poses.empty()) {
-    face.pose_covariance = steady.poses[peak].covariance;
+    face.pose_covariance =
+        steady.poses[peak].filtered(metrics::jitter_left(smooth.time_s, peak, cutoff_hz));
     face.pose_centre = steady.poses[peak].centre;
   }
   settle_curves(columns, smooth, face);

@@ -7,21 +7,18 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <random>
 
 #include "estimate/estimate_twin.hpp"
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/intervals.hpp"
 #include "hyperex/estimate/posterior.hpp"
+#include "support/draws.hpp"
 
 namespace hyperex::estimate::test {
 namespace {
 
-int draws() {
-  const char* const text = std::getenv("HYPEREX_DRAWS");
-  return text ? std::max(20, std::atoi(text)) : 20;
-}
+using hyperex::test::draws;
 
 /// A quarter of the patients has neither change, a quarter each one, a quarter both.
 Patient patient_of(int draw) {

@@ -94,8 +94,8 @@ TEST(Excursion, ALateSideIsSeenInTheCorrelationOfSpeeds) {
 // is the difference of two positions.
 TEST(Excursion, JitterLeavesSmallDifferencesUndecided) {
   const motion::Motion motion = smile(0.9);  // differ by 0.6 mm
-  EXPECT_FALSE(excursions_of(motion, 0.99 * 0.6e-3 / 3.92).pairs[0].undecided);
-  EXPECT_TRUE(excursions_of(motion, 1.01 * 0.6e-3 / 3.92).pairs[0].undecided);
+  EXPECT_FALSE(excursions_of(motion, 0.99 * 0.6e-3 / 3.92, 0).pairs[0].undecided);
+  EXPECT_TRUE(excursions_of(motion, 1.01 * 0.6e-3 / 3.92, 0).pairs[0].undecided);
 }
 
 /// Eight tenths of a second at rest, then there and back; the peak speed of the left corner is
@@ -118,6 +118,30 @@ motion::Motion noisy_smile(double left_mm_s, double right_mm_s, double jitter_m,
     motion.positions.push_back(at);
   }
   return motion;
+}
+
+TEST(Excursion, FilteringLowersTheFloorOfJitterToWhatIsLeftOfIt) {
+  constexpr double jitter_m = 0.3e-3;
+  constexpr int draws = 300;
+  int beyond = 0, beyond_half = 0;
+  for (unsigned seed = 1; seed <= draws; ++seed) {
+    const PairExcursion p = excursions_of(noisy_smile(15, 15, jitter_m, seed), jitter_m).pairs[0];
+    EXPECT_LT(p.jitter_floor_mm, 0.8 * 3.92 * 1e3 * jitter_m);
+    beyond += p.undecided ? 0 : 1;
+    beyond_half += std::abs(p.difference_mm()) > 0.5 * p.jitter_floor_mm;
+  }
+  EXPECT_LE(beyond, 0.08 * draws);
+  EXPECT_GE(beyond_half, 0.2 * draws) << "the floor is not wider than it need be";
+}
+
+TEST(Excursion, JitterThatAFilterLeavesIsNotCountedAsFiltered) {
+  motion::Motion motion = noisy_smile(0, 0, 0.3e-3, 3);
+  for (size_t k = 1; k < motion.positions.size(); ++k)
+    motion.positions[k] = 0.8 * motion.positions[k - 1] + 0.2 * motion.positions[k];
+  constexpr double jitter_m = 0.02e-3;
+  const PairExcursion p = excursions_of(motion, jitter_m).pairs[0];
+  EXPECT_GT(p.jitter_widening, 1.5);
+  EXPECT_NEAR(p.jitter_floor_mm, 3.92 * 1e3 * jitter_m, 1e-4);
 }
 
 TEST(Excursion, SpeedsOfANoisyRecordingAreThoseOfTheMotionWithinTheirFloor) {

@@ -126,21 +126,23 @@ PairExcursion travels(double left_mm, double right_mm, double twin_left_mm, doub
 
 TEST(ExcursionChange, BandIsWhatTheTwinsDifferByAndTheJitterThatTheChangeScales) {
   const PairExcursion base = travels(10, 12, 10.5, 12.25), weak = travels(6, 12, 6.8, 12.25);
-  const ExcursionChange exact = change_of(base, weak, Side::left, 0);
+  const ExcursionChange exact = change_of(base, weak, Side::left);
   EXPECT_EQ(exact.from_mm, 10);
   EXPECT_EQ(exact.change_mm(), -4);
   // The twin's side loses 3.7 mm: 0.3 mm are the mesh's.
   EXPECT_NEAR(exact.band_mm, 0.3 + 0.1, 1e-12);
   EXPECT_EQ(exact.decided(), 1);
-  // Jitter of 0.1 mm, of which four tenths are lost: 1.96 sqrt(2) 0.1 * 0.4.
-  EXPECT_NEAR(change_of(base, weak, Side::left, 1e-4).band_mm, std::hypot(0.3, 0.110873) + 0.1,
-              1e-5);
-  const ExcursionChange other = change_of(base, weak, Side::right, 1e-4);
+  // Jitter that makes 0.4 mm of a difference of both sides, of which four tenths are lost.
+  PairExcursion noisy = base;
+  noisy.jitter_floor_mm = 0.4;
+  EXPECT_NEAR(change_of(noisy, weak, Side::left).band_mm,
+              std::hypot(0.3, 0.4 * 0.4 / std::sqrt(2)) + 0.1, 1e-9);
+  const ExcursionChange other = change_of(noisy, weak, Side::right);
   EXPECT_EQ(other.change_mm(), 0);
   EXPECT_NEAR(other.band_mm, 0.1, 1e-12) << "the same run has the same jitter";
   EXPECT_EQ(other.decided(), 0);
   const double none = std::nan("");
-  EXPECT_TRUE(std::isnan(change_of(travels(10, 12, none, none), weak, Side::left, 1e-4).decided()));
+  EXPECT_TRUE(std::isnan(change_of(travels(10, 12, none, none), weak, Side::left).decided()));
 }
 
 TEST(MeshFloor, KeepsTheTwinsExcursionsForTheSideThatTheyAreTheMirrorImageOf) {

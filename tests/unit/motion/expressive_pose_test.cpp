@@ -55,6 +55,26 @@ Motion grimace(const Expression& expression, bool head_moves, double noise_m = 5
   return motion;
 }
 
+/// A face at rest: what the pose is wrong by is the noise of its points, half of it the first
+/// sample's.
+TEST(ExpressivePose, PartOfJitterIsTheScatterOfPosesOfAFaceAtRest) {
+  constexpr double noise_m = 3e-4;
+  const Motion still = grimace([](auto, const Vec3&) { return Vec3(Vec3::Zero()); }, false, noise_m);
+  const auto poses = expressive_poses(still, known_landmarks(still));
+  Vec3 mean = Vec3::Zero(), squares = mean, stated = mean;
+  for (std::size_t k = 1; k < poses.size(); ++k) {
+    const Vec3 shift = poses[k].pose * poses[k].centre - poses[k].centre;
+    mean += shift / double(poses.size() - 1);
+    squares += shift.cwiseAbs2() / double(poses.size() - 1);
+    stated += Vec3(poses[k].of_jitter.diagonal().tail<3>()) / double(poses.size() - 1);
+  }
+  const Vec3 scatter = (squares - mean.cwiseAbs2()).cwiseSqrt(), half = (stated / 2).cwiseSqrt();
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_GT(scatter[axis], 0.7 * half[axis]) << axis;
+    EXPECT_LT(scatter[axis], 1.4 * half[axis]) << axis;
+  }
+}
+
 /// The mode of raised brows at 2.5 standard deviations, wide eyes and a dropped jaw. In addition, a
 /// motion that no mode contains: the inner eye corners and the bridge of the nose rise by 4.5 mm
 /// with the brows.

@@ -5,12 +5,12 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <map>
 
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/visits/compare_visits.hpp"
 #include "smiling_face.hpp"
+#include "support/draws.hpp"
 
 namespace hyperex::visits {
 namespace {
@@ -31,8 +31,7 @@ MeasuredFace drawn(Smile smile, unsigned seed, const MeasuredFace* first) {
 
 const std::vector<Draw>& draws() {
   static const std::vector<Draw> all = [] {
-    const char* const stated = std::getenv("HYPEREX_DRAWS");
-    std::vector<Draw> made(stated ? std::size_t(std::atoi(stated)) : 20);
+    std::vector<Draw> made(std::size_t(hyperex::test::draws()));
     run_each(made.size(), [&](std::size_t i) {
       const auto seed = 3 * unsigned(i);
       const MeasuredFace first = drawn(kWhole, seed, nullptr);
