@@ -37,6 +37,46 @@ py::array array_of(const std::vector<double>& values) {
   return py::array_t<double>(py::ssize_t(values.size()), values.data());
 }
 
+void bind_excursion_change(py::module_& m) {
+  py::class_<ExcursionChange>(m, "ExcursionChange",
+                              "The change of one side's excursion between two runs.")
+      .def_readonly("from_mm", &ExcursionChange::from_mm)
+      .def_readonly("to_mm", &ExcursionChange::to_mm)
+      .def_property_readonly("change_mm", &ExcursionChange::change_mm)
+      .def_readonly(
+          "band_mm", &ExcursionChange::band_mm,
+          "Uncertainty of the change due to the mesh (by the twins) and jitter (95 %); NaN without "
+          "twins.")
+      .def_property_readonly(
+          "decided",
+          [](const ExcursionChange& self) -> py::object {
+            if (std::isnan(self.band_mm)) return py::none();
+            return py::bool_(self.decided() == 1);
+          },
+          "Whether the change is larger than its band; None without twins.")
+      .def("__repr__", [](const ExcursionChange& change) {
+        return fmt::format("<hyperex.ExcursionChange {:+.2f} ± {:.2f} mm>", change.change_mm(),
+                           change.band_mm);
+      });
+  m.def(
+      "change_of",
+      [](const PairExcursion& before, const PairExcursion& after, const std::string& side,
+         const py::object& jitter_m) {
+        if (!jitter_m.is_none() &&
+            PyErr_WarnEx(PyExc_DeprecationWarning,
+                         "jitter_m has no effect: the jitter counts with which excursions_of() "
+                         "made `before`",
+                         1) != 0)
+          throw py::error_already_set();
+        if (side != "L" && side != "R")
+          throw InputError(InputProblem{{}, 0, "side", side, "\"L\" or \"R\""});
+        return change_of(before, after, side == "L" ? Side::left : Side::right);
+      },
+      "before"_a, "after"_a, "side"_a, "jitter_m"_a = py::none(),
+      "What the excursion of a side changes by from one run to another of the same recording, and "
+      "its band: the ± of `hyperex run`.");
+}
+
 void bind_excursions(py::module_& m) {
   py::class_<SideExcursion>(m, "SideExcursion", "Of one side of a pair of points.")
       .def_readonly("excursion_mm", &SideExcursion::excursion_mm,
@@ -94,43 +134,6 @@ void bind_excursions(py::module_& m) {
       "How far both points of each pair travel. `jitter_m` is that of the recorded points; `twin`: "
       "the landmarks of a run of the mirrored motion (Scene.mirrored_motion), which shows the "
       "effect of the mesh on a figure.");
-  py::class_<ExcursionChange>(m, "ExcursionChange",
-                              "The change of one side's excursion between two runs.")
-      .def_readonly("from_mm", &ExcursionChange::from_mm)
-      .def_readonly("to_mm", &ExcursionChange::to_mm)
-      .def_property_readonly("change_mm", &ExcursionChange::change_mm)
-      .def_readonly(
-          "band_mm", &ExcursionChange::band_mm,
-          "Uncertainty of the change due to the mesh (by the twins) and jitter (95 %); NaN without "
-          "twins.")
-      .def_property_readonly(
-          "decided",
-          [](const ExcursionChange& self) -> py::object {
-            if (std::isnan(self.band_mm)) return py::none();
-            return py::bool_(self.decided() == 1);
-          },
-          "Whether the change is larger than its band; None without twins.")
-      .def("__repr__", [](const ExcursionChange& change) {
-        return fmt::format("<hyperex.ExcursionChange {:+.2f} ± {:.2f} mm>", change.change_mm(),
-                           change.band_mm);
-      });
-  m.def(
-      "change_of",
-      [](const PairExcursion& before, const PairExcursion& after, const std::string& side,
-         const py::object& jitter_m) {
-        if (!jitter_m.is_none() &&
-            PyErr_WarnEx(PyExc_DeprecationWarning,
-                         "jitter_m has no effect: the jitter counts with which excursions_of() "
-                         "made `before`",
-                         1) != 0)
-          throw py::error_already_set();
-        if (side != "L" && side != "R")
-          throw InputError(InputProblem{{}, 0, "side", side, "\"L\" or \"R\""});
-        return change_of(before, after, side == "L" ? Side::left : Side::right);
-      },
-      "before"_a, "after"_a, "side"_a, "jitter_m"_a = py::none(),
-      "What the excursion of a side changes by from one run to another of the same recording, and "
-      "its band: the ± of `hyperex run`.");
   m.def("write_excursions_csv", &write_excursions_csv, "file"_a, "excursions"_a, Unlocked(),
         "A row a pair of points.");
   m.def(
@@ -173,6 +176,7 @@ void bind_symmetry(py::module_& m) {
 
 void bind_measures(py::module_& m) {
   bind_excursions(m);
+  bind_excursion_change(m);
   bind_symmetry(m);
 }
 

@@ -259,8 +259,8 @@ void run(const SymmetryOptions& options) {
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
-  metrics::add_pose_floors(all.excursions, metrics::pose_floors_mm(steady, stabilised.poses,
-                                                                  all.excursions.lowpass_hz));
+  metrics::add_pose_floors(
+      all.excursions, metrics::pose_floors_mm(steady, stabilised.poses, all.excursions.lowpass_hz));
   report(options, all, jitter, stabilised);
 }
 

@@ -94,8 +94,8 @@ struct Excursions {
 /// The excursions of all pairs of points of a motion without head pose: NAME_L and NAME_R, and
 /// mirrored iBUG-68 points, named ibug68_K, K or pK. Pairs that are not measured in the first
 /// sample are omitted. L and R are the subject's own sides. If jitter_m is above 0, all
-/// figures are of tracks smoothed with the cut-off `lowpass_hz` (>= 0; 0: not smoothed); an exact motion is
-/// never smoothed.
+/// figures are of tracks smoothed with the cut-off `lowpass_hz` (>= 0; 0: not smoothed); an exact
+/// motion is never smoothed.
 Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
                          double lowpass_hz = kUsualLowpass_hz);
 

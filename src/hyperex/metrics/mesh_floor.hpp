@@ -57,8 +57,8 @@ struct ExcursionChange {
   /// Uncertainty of the change (mm). It combines two contributions as the root of the sum of
   /// squares and adds kResolution_m. That of the mesh is |(to - from) - (to' - from')|, from the
   /// mirrored twins (one sample). That of the recording's jitter is |to / from - 1| times one
-  /// side's part of the jitter floor (95 %); this form applies because both runs share the jitter, which a changed face
-  /// scales. NaN without twins. Errors of tissue or muscles are not included.
+  /// side's part of the jitter floor (95 %); this form applies because both runs share the jitter,
+  /// which a changed face scales. NaN without twins. Errors of tissue or muscles are not included.
   double band_mm = 0;
   double change_mm() const { return to_mm - from_mm; }
   /// 1 if the change is larger than its band, otherwise 0; NaN if no band is known.

@@ -128,8 +128,9 @@ TEST(PoseFloor, ASymmetricSmileOfAMovingHeadIsRarelyCalledAsymmetric) {
       for (int p = 0; p < 68; ++p) {
         Vec3 moved = smile_mm(face::ibug(p));
         if (weak && (p == 48 || p == 60)) moved *= 1 - 1.5 / moved.norm();
-        at.row(p) = head * (face.landmark(face::ibug(p), face.mesh.points) + 1e-3 * course * moved) +
-                    noise_m * Vec3::NullaryExpr([&] { return normal(random); });
+        at.row(p) =
+            head * (face.landmark(face::ibug(p), face.mesh.points) + 1e-3 * course * moved) +
+            noise_m * Vec3::NullaryExpr([&] { return normal(random); });
       }
       seen.time_s.push_back(k / rate_hz);
       seen.positions.push_back(at);

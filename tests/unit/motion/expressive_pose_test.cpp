@@ -59,7 +59,8 @@ Motion grimace(const Expression& expression, bool head_moves, double noise_m = 5
 /// sample's.
 TEST(ExpressivePose, PartOfJitterIsTheScatterOfPosesOfAFaceAtRest) {
   constexpr double noise_m = 3e-4;
-  const Motion still = grimace([](auto, const Vec3&) { return Vec3(Vec3::Zero()); }, false, noise_m);
+  const Motion still =
+      grimace([](auto, const Vec3&) { return Vec3(Vec3::Zero()); }, false, noise_m);
   const auto poses = expressive_poses(still, known_landmarks(still));
   Vec3 mean = Vec3::Zero(), squares = mean, stated = mean;
   for (std::size_t k = 1; k < poses.size(); ++k) {
