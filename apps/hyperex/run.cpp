@@ -24,7 +24,7 @@ struct RunOptions {
   std::filesystem::path scene;
   std::optional<std::filesystem::path> out;
   std::vector<std::string> overrides;
-  bool verify = false, no_cache = false, no_variants = false;
+  bool verify = false, no_cache = false, no_variants = false, error_budget = false;
 };
 
 std::string solver_line(const nlohmann::ordered_json& summary) {
@@ -36,6 +36,15 @@ std::string solver_line(const nlohmann::ordered_json& summary) {
     line += fmt::format(", measured against the full model {:.1e}",
                         summary["verified_error"].get<double>());
   return line + " of the largest displacement\n";
+}
+
+/// The intervals of the corners of the mouth, a line each.
+std::string budget_lines(const nlohmann::ordered_json& summary) {
+  if (!summary.contains("error_budget")) return "";
+  std::string lines;
+  for (const auto& sentence : summary["error_budget"]["sentences"])
+    lines += sentence.get<std::string>() + '\n';
+  return lines;
 }
 
 /// How far the skin is expected to be from the true face, by region.
@@ -58,6 +67,7 @@ void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
   if (options.verify) overrides.push_back("solver.verify=true");
+  if (options.error_budget) overrides.push_back("output.error_budget=true");
   scene::Scene scene = scene::read_scene(options.scene, overrides);
   // This is checked after the scene, because errors in the scene are more important.
   if (!options.out)
@@ -68,12 +78,13 @@ void run(const RunOptions& options) {
   const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "{}{}{}{}"
+      "{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), uncertainty_line(summary), printable(options.out->string()));
+      run::variant_lines(summary), uncertainty_line(summary), budget_lines(summary),
+      printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
@@ -87,6 +98,7 @@ void run(const RunOptions& options) {
       {"variants.csv", "the variants as a table; each has its folder in variants/"},
       {"variants_excursions.csv",
        "how far each point of either side travels, with and without the change"},
+      {"error_budget.csv", "how certain each excursion and each change is, and why"},
       {"activations.csv", "what the muscles did"},
       {"muscles.png", "where they lie"},
       {"excursions.csv", "how far and how fast either side moves"},
@@ -112,6 +124,10 @@ void add_run(CLI::App& program) {
       ->allow_extra_args(false);
   command->add_flag("--verify", options->verify,
                     "Run the full model too and report the true error of the reduced one");
+  command->add_flag("--error-budget", options->error_budget,
+                    "State a 95 % interval for every excursion and every change, with its parts "
+                    "(docs/uncertainty.md); runs the face twelve times more. As "
+                    "output.error_budget of the scene");
   command->add_flag("--no-variants", options->no_variants,
                     "Run the scene without its variants, which take as long as it does each");
   command->add_flag("--no-cache", options->no_cache,

@@ -83,6 +83,8 @@ constexpr NoteKind kKinds[] = {
   warning("variant.muscle_hardly_used", "muscles.gain",
     "The same of a variant."),
 
+  note("run.error_budget", "output.error_budget",
+    "The 95 % interval of a corner of the mouth, or of what a variant changes there."),
   note("scan.unit_guessed", "scan.unit", "The scan's unit was guessed from its size."),
   note("scan.mended", "scan.file", "Faults of the scan's mesh were mended in a working copy."),
   note("scan.thinned", "scan.file", "The scan has more than 60,000 vertices and was thinned."),

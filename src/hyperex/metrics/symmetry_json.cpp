@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hyperex/metrics/excursion_budget.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 
 namespace hyperex::metrics {
@@ -37,6 +38,7 @@ Json pair_json(const PairExcursion& p) {
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
   json["pose_floor_mm"] = p.pose_floor_mm;
   json["floor_mm"] = number(p.floor_mm());
+  json["largest_part"] = largest_part_of(p);
   json["undecided"] = p.undecided;
   return json;
 }

@@ -19,17 +19,6 @@ double rounded_mm(double mm) {
   return std::round(10 * mm) / 10;
 }
 
-/// What most of the floor comes from.
-std::string largest_part(const Json& corners) {
-  std::pair<double, const char*> most{0, "mesh"};
-  for (const auto& [key, words] : {std::pair{"mesh_floor_mm", "mesh"},
-                                   {"jitter_floor_mm", "jitter"},
-                                   {"pose_floor_mm", "the head's pose"}})
-    most = std::max(most, {corner_number(corners, key, 0), words},
-                    [](const auto& a, const auto& b) { return a.first < b.first; });
-  return most.second;
-}
-
 /// Whether the corners' difference counts, and what most of the floor comes from.
 std::string floor_clause(const Json& corners, double apart_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
@@ -39,7 +28,7 @@ std::string floor_clause(const Json& corners, double apart_mm) {
                      floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1
                          ? fmt::format("{:.2f}", floor_mm)
                          : fmt::format("{:.1f}", floor_mm),
-                     largest_part(corners));
+                     corners.value("largest_part", "mesh"));
 }
 
 /// A corner of the mouth in base and in a variant; what is not known is not a number.

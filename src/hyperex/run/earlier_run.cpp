@@ -16,7 +16,8 @@ using nlohmann::json;
 const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "contact_sheet.png",
                                         "excursions.csv",  "motion.csv",    "muscles.png",
                                         "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};
-const std::set<std::string> kOfARun = {"frames.pvd",
+const std::set<std::string> kOfARun = {"error_budget.csv",
+                                       "frames.pvd",
                                        "performance.glb",
                                        "report.html",
                                        "summary.json",

@@ -20,6 +20,7 @@
 #include "hyperex/session/remarks_json.hpp"
 #include "hyperex/session/run_cost.hpp"
 #include "hyperex/session/variants.hpp"
+#include "hyperex/uncertainty/budget_outputs.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -90,6 +91,13 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   session.find_certainty(cancelled);
   results.notes = session.notes();
   if (!written.variants.is_null()) summary["variants"] = written.variants;
+  if (results.scene.output.error_budget) {
+    const uncertainty::FaceBudget budget = uncertainty::face_budget(session, cancelled);
+    uncertainty::write_budget_csv(directory / "error_budget.csv", budget);
+    summary["error_budget"] = uncertainty::budget_json(budget);
+    for (const std::string& sentence : uncertainty::corner_sentences(budget))
+      results.notes.push_back(make_note("run.error_budget", sentence));
+  }
   if (written.glb) {
     summary["glb"] = glb_json(*written.glb);
     for (const Note& note : glb_notes(results.scene.output, *written.glb)) {

@@ -194,9 +194,10 @@ struct OutputOptions {
   double glb_max_mb = 20;         ///< of performance.glb
   double most_gb = 2;             ///< of all outputs; a run that would write more is refused
   double most_memory_gb = 8;      ///< a run that would take more is refused
+  bool error_budget = false;      ///< run the face again with whatever may be wrong
   bool full_paths = false;        ///< write full paths in summary.json and report.html
   double symmetry_floor = 1e-6;
-  double lowpass_hz = 6;    ///< cut-off for speeds and paths; 0: none
+  double lowpass_hz = 6;    ///< cut-off for excursions, speeds and paths; 0: none
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from the points
   face::SkinTone skin_tone = face::SkinTone::light;  ///< where a scan has no colours
 
@@ -204,6 +205,10 @@ struct OutputOptions {
   template <class Visitor>
   static void describe(Visitor& v) {
     describe_files(v);
+    v.option(HX_MEMBER(error_budget),
+             "Run the face twelve times more, with another mesh, landmarks, muscles, stiffness "
+             "and law, and state a 95 % interval with its parts for every excursion and for what "
+             "each variant changes: error_budget.csv and summary.json (docs/uncertainty.md).");
     v.option(HX_MEMBER(full_paths),
              "Write full paths of the input files into summary.json and report.html. By default "
              "only file names are written, since folder names may contain a patient's name.");
@@ -220,7 +225,7 @@ struct OutputOptions {
              "differences of the points in time.",
              {.unit = kMillimetres, .bounds = {-1e-3, 0.02}});
     v.option(HX_MEMBER(lowpass_hz),
-             "Cut-off frequency of the zero-phase low-pass filter for speeds and paths of points "
+             "Cut-off frequency of the zero-phase low-pass filter for tracks of points "
              "with jitter (docs/symmetry.md). 0: no filter.",
              {.unit = kHertz, .bounds = {0, 100}});
   }

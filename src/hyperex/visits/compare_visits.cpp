@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStep = 1e-6;  // of central differences, m and rad
 
+using metrics::ErrorPart;
 using Row3 = Eigen::RowVector3d;
 
 /// Central difference of a measure for a change of the face by +-kStep along each axis.
@@ -56,6 +57,11 @@ double quadratic(const Eigen::RowVectorXd& row, const Eigen::MatrixXd& covarianc
   return std::max(0.0, (row * covariance * row.transpose()).value());
 }
 
+/// Half the width of the 95 % interval without a person's own variation.
+double measurement_half_width(const metrics::ErrorBudget& errors) {
+  return errors.without(ErrorPart::repetition).half_width_95();
+}
+
 /// The mean of the recordings of one visit; nothing if none measures it.
 struct VisitEstimates {
   std::vector<Estimate> each;
@@ -81,10 +87,10 @@ std::optional<VisitValue> mean_of(const VisitEstimates& estimates) {
   mean.recordings = int(estimates.each.size());
   for (const Estimate& one : estimates.each) {
     mean.value += one.value / count;
-    mean.variance += one.variance;
+    mean.errors += one.errors;
   }
-  mean.variance /= count * count;
-  const double half = kWithin95 * std::sqrt(mean.variance.measurement());
+  mean.errors *= 1 / (count * count);
+  const double half = measurement_half_width(mean.errors);
   if (estimates.known) mean.measured = Interval{mean.value - half, mean.value + half};
   return mean;
 }
@@ -111,22 +117,23 @@ Scatter scatter_of(const std::vector<VisitEstimates>& visits) {
 Change change_between(const VisitValue& first, const VisitValue& now, const Scatter& scatter) {
   Change change;
   change.value = now.value - first.value;
-  ErrorParts both = first.variance;
-  both += now.variance;
-  const double measured = kWithin95 * std::sqrt(both.measurement());
-  double all = kWithin95 * std::sqrt(both.all());
+  metrics::ErrorBudget both = first.errors;
+  both += now.errors;
+  const double measured = measurement_half_width(both);
+  double all = both.half_width_95();
   if (scatter.freedom >= kLeastFreedom) {
     const double t = boost::math::quantile(boost::math::students_t(scatter.freedom), 0.975);
     all = t * scatter.deviation() * std::sqrt(1.0 / first.recordings + 1.0 / now.recordings);
     all = std::max(all, measured);
-    both.repetition = std::max(0.0, std::pow(all / kWithin95, 2) - both.measurement());
+    both = both.without(ErrorPart::repetition);
+    both.add(ErrorPart::repetition, std::max(0.0, std::pow(all / kWithin95, 2) - both.variance()));
   }
   const bool known = first.measured && now.measured;
   if (known) change.measured = Interval{change.value - measured, change.value + measured};
   change.all = {change.value - all, change.value + all};
   if (change.all.low > 0 || change.all.high < 0)
     change.beyond = known ? Beyond::yes : Beyond::cannot_tell;
-  change.largest = both.largest();
+  change.largest = name_of(both.largest());
   return change;
 }
 
@@ -150,26 +157,6 @@ MeasureOverVisits over_visits(const Measure& measure,
 
 }  // namespace
 
-ErrorParts& ErrorParts::operator+=(const ErrorParts& other) {
-  jitter += other.jitter;
-  head_pose += other.head_pose;
-  axes += other.axes;
-  repetition += other.repetition;
-  return *this;
-}
-
-ErrorParts& ErrorParts::operator/=(double divisor) {
-  for (double* const part : {&jitter, &head_pose, &axes, &repetition}) *part /= divisor;
-  return *this;
-}
-
-std::string ErrorParts::largest() const {
-  const double most = std::max({jitter, head_pose, axes, repetition});
-  if (repetition == most) return "repetition";
-  if (jitter == most) return "jitter";
-  return head_pose == most ? "head pose" : "axes";
-}
-
 Estimate estimate(const Measure& measure, const MeasuredFace& face, double repetition_m) {
   Estimate out;
   out.value = measure.value(face.state);
@@ -179,15 +166,16 @@ Estimate estimate(const Measure& measure, const MeasuredFace& face, double repet
   for (std::size_t p = 0; p < kFacePoints; ++p) {
     const double rest = by_point(measure, face, &FaceState::rest, p).squaredNorm(),
                  peak = by_point(measure, face, &FaceState::peak, p).squaredNorm();
-    out.variance.jitter +=
-        rest * std::pow(face.rest_jitter_m[p], 2) + peak * std::pow(face.peak_jitter_m[p], 2);
+    out.errors.add(ErrorPart::jitter, rest * std::pow(face.rest_jitter_m[p], 2) +
+                                          peak * std::pow(face.peak_jitter_m[p], 2));
     rest_squares += rest;
     peak_squares += peak;
   }
-  out.variance.repetition = own * own * (peak_squares > 0 ? peak_squares : rest_squares);
-  out.variance.head_pose = quadratic(by_pose(measure, face), face.pose_covariance);
+  out.errors.add(ErrorPart::repetition,
+                 own * own * (peak_squares > 0 ? peak_squares : rest_squares));
+  out.errors.add(ErrorPart::head_pose, quadratic(by_pose(measure, face), face.pose_covariance));
   const Eigen::RowVectorXd axes = by_axes(measure, face);
-  if (axes.allFinite()) out.variance.axes = quadratic(axes, face.axes_covariance);
+  if (axes.allFinite()) out.errors.add(ErrorPart::axes, quadratic(axes, face.axes_covariance));
   return out;
 }
 

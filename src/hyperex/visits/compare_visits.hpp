@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/metrics/error_budget.hpp"
 #include "hyperex/visits/measured_face.hpp"
 #include "hyperex/visits/measures.hpp"
 #include "hyperex/visits/read_visits.hpp"
@@ -16,22 +17,11 @@ namespace hyperex::visits {
 /// (Tanikawa and Takada, Angle Orthod. 88, 2018, 319).
 inline constexpr double kUsualRepetition_m = 1.5e-3;
 
-/// Variances of the independent parts of an error, each in the square of the measure's unit.
-struct ErrorParts {
-  double jitter = 0, head_pose = 0, axes = 0, repetition = 0;
-
-  double measurement() const { return jitter + head_pose + axes; }
-  double all() const { return measurement() + repetition; }
-  ErrorParts& operator+=(const ErrorParts& other);
-  ErrorParts& operator/=(double divisor);
-  std::string largest() const;  ///< "jitter", "head pose", "axes" or "repetition"
-};
-
 /// A measure of one recording, to first order in its errors: each part is g' C g, with g the
 /// derivative of the measure by the points or the pose, and C the covariance of that error.
 struct Estimate {
   double value = 0;  ///< NaN: not measured
-  ErrorParts variance;
+  metrics::ErrorBudget errors;
 };
 /// `repetition_m`: as VisitsFile has it. The person's own variation is taken as an error of each
 /// point at the peak, independent between points and equal in all directions. For a measure of the
@@ -47,7 +37,7 @@ struct VisitValue {
   double value = 0;
   std::optional<Interval> measured;  ///< 95 %, by measurement alone; nothing: unknown
   int recordings = 0;                ///< that measure it
-  ErrorParts variance;               ///< of the mean
+  metrics::ErrorBudget errors;       ///< of the mean
 };
 
 enum class Beyond { no, yes, cannot_tell };

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/uncertainty/budget_outputs.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/io/csv_cells.hpp"
+
+namespace hyperex::uncertainty {
+namespace {
+
+using metrics::ErrorPart;
+using Json = nlohmann::ordered_json;
+
+/// Those that a run of a face has.
+constexpr std::array kParts = {ErrorPart::jitter, ErrorPart::head_pose, ErrorPart::landmarks,
+                               ErrorPart::mesh,   ErrorPart::muscles,   ErrorPart::stiffness,
+                               ErrorPart::law};
+
+std::string name_of(FigureKind kind) {
+  if (kind == FigureKind::excursion) return "excursion";
+  return kind == FigureKind::difference ? "difference" : "change";
+}
+
+std::string side_of(const BudgetedFigure& figure) {
+  return figure.side ? std::string(1, figure.side) : "";
+}
+
+std::string decided_of(const BudgetedFigure& figure) {
+  if (figure.kind == FigureKind::excursion) return "";
+  return figure.decided() ? "1" : "0";
+}
+
+std::string column_of(ErrorPart part) {
+  std::string name = metrics::name_of(part);
+  std::ranges::replace(name, ' ', '_');
+  return name + "_mm";
+}
+
+Json json_of(const BudgetedFigure& figure) {
+  Json json;
+  if (!figure.variant.empty()) json["variant"] = figure.variant;
+  json["figure"] = name_of(figure.kind);
+  if (figure.side) json["side"] = side_of(figure);
+  json["value_mm"] = figure.value_mm;
+  json["half_width_95_mm"] = figure.half_width_95_mm();
+  if (figure.kind != FigureKind::excursion) json["decided"] = figure.decided();
+  json["largest_part"] = metrics::name_of(figure.errors.largest());
+  for (const ErrorPart part : kParts)
+    json["parts_mm"][metrics::name_of(part)] = figure.errors.half_width_95(part);
+  return json;
+}
+
+/// "right -3.2 mm (95 %: -4.6 to -1.8; mostly muscles)"
+std::string interval_words(const BudgetedFigure& figure) {
+  const double half = figure.half_width_95_mm();
+  std::string words = fmt::format("{:.1f} mm (95 %: {:.1f} to {:.1f}; mostly {})", figure.value_mm,
+                                  figure.value_mm - half, figure.value_mm + half,
+                                  metrics::name_of(figure.errors.largest()));
+  if (figure.kind != FigureKind::excursion && !figure.decided()) words += ", undecided";
+  return words;
+}
+
+std::string words_of_side(char side) {
+  return side == 'R' ? "right" : "left";
+}
+
+}  // namespace
+
+void write_budget_csv(const std::filesystem::path& file, const FaceBudget& budget) {
+  write_file_atomically(file, [&](std::ostream& out) {
+    out << "variant,point,side,figure,value_mm,half_width_95_mm,decided,largest_part";
+    for (const ErrorPart part : kParts) out << ',' << column_of(part);
+    out << '\n';
+    for (const BudgetedFigure& figure : budget.figures) {
+      fmt::print(out, "{},{},{},{},{:.6g},{:.6g},{},{}", io::in_quotes_where_needed(figure.variant),
+                 io::in_quotes_where_needed(figure.point), side_of(figure), name_of(figure.kind),
+                 figure.value_mm, figure.half_width_95_mm(), decided_of(figure),
+                 metrics::name_of(figure.errors.largest()));
+      for (const ErrorPart part : kParts)
+        fmt::print(out, ",{:.6g}", figure.errors.half_width_95(part));
+      out << '\n';
+    }
+  });
+}
+
+std::vector<std::string> corner_sentences(const FaceBudget& budget) {
+  std::vector<std::string> out;
+  for (const BudgetedFigure& figure : budget.figures) {
+    if (figure.point != budget.corners) continue;
+    if (figure.kind == FigureKind::difference)
+      out.push_back("corners of the mouth, left less right: " + interval_words(figure));
+    else if (figure.kind == FigureKind::excursion)
+      out.push_back(fmt::format("{} corner of the mouth: {}", words_of_side(figure.side),
+                                interval_words(figure)));
+    else
+      out.push_back(fmt::format("{}: the {} corner of the mouth changes by {}", figure.variant,
+                                words_of_side(figure.side), interval_words(figure)));
+  }
+  for (const std::string& missing : budget.missing)
+    out.push_back("these intervals lack a part that could not be simulated: " + missing);
+  if (!out.empty() && !budget.jitter_known)
+    out.push_back(
+        "the recording shows no jitter: unless its points are exact, these intervals are too "
+        "narrow (output.jitter_mm states a jitter)");
+  return out;
+}
+
+Json budget_json(const FaceBudget& budget) {
+  Json json;
+  json["assumed"] = budget.assumed;
+  json["missing"] = budget.missing;
+  json["jitter_known"] = budget.jitter_known;
+  Json corners = Json::array();
+  for (const BudgetedFigure& figure : budget.figures)
+    if (figure.point == budget.corners) corners.push_back(json_of(figure));
+  json["corners_of_the_mouth"] = corners;
+  json["sentences"] = corner_sentences(budget);
+  return json;
+}
+
+}  // namespace hyperex::uncertainty

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/uncertainty/face_budget.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/progress.hpp"
+#include "hyperex/core/within_95.hpp"
+#include "hyperex/metrics/excursion_budget.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/variants.hpp"
+#include "hyperex/uncertainty/perturbed_face.hpp"
+
+namespace hyperex::uncertainty {
+namespace {
+
+using metrics::ErrorPart;
+using metrics::Excursions;
+using metrics::PairExcursion;
+
+/// The excursions of a face: base, then its variants.
+using FaceExcursions = std::vector<Excursions>;
+
+FaceExcursions excursions_of(const session::FaceSession& session) {
+  FaceExcursions out{session.symmetry().excursions};
+  for (const session::VariantRun& run : session.variants()) out.push_back(run.symmetry.excursions);
+  return out;
+}
+
+/// Those that the mirrored twin gives each side.
+FaceExcursions of_twins(FaceExcursions faces) {
+  for (Excursions& face : faces)
+    for (PairExcursion& pair : face.pairs) {
+      pair.left_side.excursion_mm = pair.twin_left_mm;
+      pair.right_side.excursion_mm = pair.twin_right_mm;
+    }
+  return faces;
+}
+
+double excursion(const PairExcursion& pair, char side) {
+  return (side == 'L' ? pair.left_side : pair.right_side).excursion_mm;
+}
+
+/// The pair of that name; NaN excursions where a perturbed face has none.
+PairExcursion pair_named(const Excursions& face, const std::string& name) {
+  const auto found = std::ranges::find(face.pairs, name, &PairExcursion::name);
+  if (found != face.pairs.end()) return *found;
+  PairExcursion none;
+  none.left_side.excursion_mm = none.right_side.excursion_mm = std::nan("");
+  return none;
+}
+
+std::string corners_of(const Excursions& face) {
+  for (const PairExcursion& pair : face.pairs)
+    if (pair.left >= 0 && pair.left == face.commissure.left) return pair.name;
+  return "";
+}
+
+/// A figure of a face: which one it is, and where to find it.
+struct Place {
+  FigureKind kind;
+  std::size_t face;  // 0: base
+  std::string point;
+  char side;
+};
+
+double value_of(const Place& place, const FaceExcursions& faces) {
+  const PairExcursion base = pair_named(faces.front(), place.point);
+  if (place.kind == FigureKind::difference) return base.difference_mm();
+  if (place.kind == FigureKind::excursion) return excursion(base, place.side);
+  return excursion(pair_named(faces.at(place.face), place.point), place.side) -
+         excursion(base, place.side);
+}
+
+std::vector<Place> places_of(const FaceExcursions& faces) {
+  std::vector<Place> out;
+  for (std::size_t face = 0; face < faces.size(); ++face)
+    for (const PairExcursion& pair : faces.front().pairs) {
+      const FigureKind kind = face == 0 ? FigureKind::excursion : FigureKind::change;
+      for (const char side : {'R', 'L'}) out.push_back({kind, face, pair.name, side});
+      if (face == 0) out.push_back({FigureKind::difference, face, pair.name, 0});
+    }
+  return out;
+}
+
+/// Jitter and the head's pose. Both are stated for the difference of two sides; one side has half
+/// of that variance. Base and variant share the errors of the recording, which a changed face
+/// scales.
+void add_recording(const PairExcursion& base, const Place& place, double value_mm,
+                   metrics::ErrorBudget& errors) {
+  double share = 1;
+  if (place.kind == FigureKind::excursion) share = 0.5;
+  if (place.kind == FigureKind::change) {
+    const double from_mm = excursion(base, place.side);
+    share = from_mm > 0 ? 0.5 * std::pow(value_mm / from_mm, 2) : 0;
+  }
+  const metrics::ErrorBudget both = metrics::budget_of_difference(base);
+  for (const ErrorPart part : {ErrorPart::jitter, ErrorPart::head_pose})
+    errors.add(part, share * both.variance(part));
+}
+
+/// What the figures of other faces say of the errors of the face's own.
+class OtherFaces {
+ public:
+  OtherFaces(std::vector<Place> places, const FaceExcursions& own) : places_(std::move(places)) {
+    own_ = values_of(own);
+  }
+
+  void add(ErrorPart part, const FaceExcursions& other) {
+    others_[part].push_back(values_of(other));
+  }
+
+  metrics::ErrorBudget errors(std::size_t i) const {
+    metrics::ErrorBudget out;
+    for (const auto& [part, others] : others_) {
+      std::vector<double> values;
+      for (const std::vector<double>& other : others)
+        if (!std::isnan(other[i])) values.push_back(other[i]);
+      if (values.empty()) continue;
+      // The face's own mesh is one of a sample. All else is drawn about the face as it is.
+      if (part == ErrorPart::mesh)
+        out.add(part, sample_variance(values, own_[i]), double(values.size()));
+      else
+        out.add(part, mean_square(values, own_[i]), freedom_of(values.size()));
+    }
+    return out;
+  }
+  const std::vector<Place>& places() const { return places_; }
+  double own(std::size_t i) const { return own_[i]; }
+
+ private:
+  std::vector<double> values_of(const FaceExcursions& faces) const {
+    std::vector<double> out;
+    for (const Place& place : places_) out.push_back(value_of(place, faces));
+    return out;
+  }
+  static double mean_square(const std::vector<double>& values, double about) {
+    double sum = 0;
+    for (const double value : values) sum += (value - about) * (value - about);
+    return sum / double(values.size());
+  }
+  static double sample_variance(std::vector<double> values, double own) {
+    values.push_back(own);
+    double mean = 0;
+    for (const double value : values) mean += value / double(values.size());
+    return mean_square(values, mean) * double(values.size()) / double(values.size() - 1);
+  }
+  /// One run states a derivative; several are a sample.
+  static double freedom_of(std::size_t count) {
+    return count > 1 ? double(count) : std::numeric_limits<double>::infinity();
+  }
+
+  std::vector<Place> places_;
+  std::vector<double> own_;
+  std::map<ErrorPart, std::vector<std::vector<double>>> others_;
+};
+
+/// Runs the perturbed faces one after the other. Those that keep the mesh share a session.
+class PerturbedRuns {
+ public:
+  explicit PerturbedRuns(const scene::Scene& scene) : scene_(scene) {}
+
+  FaceExcursions run(const PerturbedFace& face, const std::function<bool()>& cancelled) {
+    const session::SessionOptions quietly{.certainty = session::Certainty::on_request};
+    const simulate::RunCallbacks callbacks{.progress = {}, .cancelled = cancelled};
+    if (!face.same_mesh) {
+      session::FaceSession other(face.scene, quietly);
+      other.run(callbacks);
+      return excursions_of(other);
+    }
+    if (!own_) own_.emplace(scene_, quietly);
+    own_->set_scene(face.scene);
+    own_->run(callbacks);
+    return excursions_of(*own_);
+  }
+
+ private:
+  const scene::Scene& scene_;
+  std::optional<session::FaceSession> own_;
+};
+
+}  // namespace
+
+FaceBudget face_budget(const session::FaceSession& session, const std::function<bool()>& cancelled,
+                       Laws laws) {
+  const scene::Scene& scene = session.scene();
+  const FaceExcursions own = excursions_of(session);
+  auto faces = perturbed_faces(scene, session.inputs().landmarks, session.scan());
+  if (laws == Laws::own)
+    std::erase_if(faces, [](const auto& face) { return face.part == ErrorPart::law; });
+  OtherFaces others(places_of(own), own);
+  others.add(ErrorPart::mesh, of_twins(own));
+  FaceBudget out;
+  out.assumed.push_back("the mirrored mesh");
+  out.corners = corners_of(own.front());
+  out.jitter_known = own.front().jitter_m > 0 || scene.output.jitter_m == 0;
+  Progress progress("error budget", long(faces.size()));
+  PerturbedRuns runs(scene);
+  for (std::size_t i = 0; i < faces.size(); ++i) {
+    progress.update(long(i));
+    try {
+      others.add(faces[i].part, runs.run(faces[i], cancelled));
+    } catch (const NumericalError& error) {
+      out.missing.push_back(fmt::format("{}: {}", faces[i].how, error.what()));
+      continue;
+    }
+    if (std::ranges::find(out.assumed, faces[i].how) == out.assumed.end())
+      out.assumed.push_back(faces[i].how);
+  }
+  for (std::size_t i = 0; i < others.places().size(); ++i) {
+    const Place& place = others.places()[i];
+    BudgetedFigure figure{
+        place.kind,    place.face == 0 ? "" : scene.variants.at(place.face - 1).name,
+        place.point,   place.side,
+        others.own(i), others.errors(i)};
+    add_recording(pair_named(own.front(), place.point), place, figure.value_mm, figure.errors);
+    out.figures.push_back(std::move(figure));
+  }
+  return out;
+}
+
+}  // namespace hyperex::uncertainty

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+// How certain the excursions of a run are. The face is run again with whatever may be wrong with
+// it: docs/uncertainty.md.
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "hyperex/metrics/error_budget.hpp"
+#include "hyperex/session/face_session.hpp"
+
+namespace hyperex::uncertainty {
+
+/// Whether the face is also run by the other law. Finite strain takes as long as all else.
+enum class Laws { own, both };
+
+enum class FigureKind {
+  excursion,   ///< of one side
+  difference,  ///< left less right
+  change       ///< of one side's excursion, from base to a variant
+};
+
+/// A figure with its error, mm.
+struct BudgetedFigure {
+  FigureKind kind = FigureKind::excursion;
+  std::string variant;  ///< of a change; else empty
+  std::string point;    ///< of the pair, as PairExcursion::name
+  char side = 0;        ///< 'R', 'L', or 0 for a difference
+  double value_mm = 0;
+  metrics::ErrorBudget errors;
+
+  double half_width_95_mm() const { return errors.half_width_95(); }
+  /// Whether the 95 % interval of a difference or a change excludes 0.
+  bool decided() const { return std::abs(value_mm) > half_width_95_mm(); }
+};
+
+struct FaceBudget {
+  std::vector<BudgetedFigure> figures;  ///< base, then the variants in the scene's order
+  /// What was assumed to be wrong: "elements of 3.8 mm instead of 3.3".
+  std::vector<std::string> assumed;
+  /// Faces that could not be simulated, with the reason: their part is missing in the intervals.
+  std::vector<std::string> missing;
+  std::string corners;        ///< name of the pair of the mouth's corners; empty: not measured
+  bool jitter_known = false;  ///< else it counts as none, and the intervals are too narrow
+};
+
+/// Errors are independent and small: the variance of a part is the mean square of what the figure
+/// changes by when the face is run again with that part wrong by 1 sigma. That of the mesh is the
+/// variance among meshes: the face's own, its mirror image (the twin) and three other sizes of the
+/// elements. Jitter and the head's pose are those of the recording; a change is wrong by
+/// the share of them that it takes off. `session`: up to date, its certainty known. Runs the face
+/// twelve times. Throws simulate::Cancelled after `cancelled` returned true.
+FaceBudget face_budget(const session::FaceSession& session,
+                       const std::function<bool()>& cancelled = {}, Laws laws = Laws::both);
+
+}  // namespace hyperex::uncertainty

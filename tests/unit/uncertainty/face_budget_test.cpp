@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/uncertainty/face_budget.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/scene/scene.hpp"
+#include "hyperex/session/variants.hpp"
+#include "hyperex/uncertainty/budget_outputs.hpp"
+#include "support/test_file.hpp"
+
+namespace hyperex::uncertainty {
+namespace {
+
+using metrics::ErrorPart;
+
+/// A mouth opening on a coarse mesh, and the same with a stiff right cheek.
+class CoarseFace {
+ public:
+  CoarseFace()
+      : session_(scene::read_scene_text(
+            "scan.file = \"embedded\"\nmotion.file = \"embedded\"\nmesh.element_size_mm = 6\n"
+            "drive.by = \"muscles\"\ntime.step_s = 0.05\noutput.jitter_mm = 0.1\n"
+            "[[variant]]\nname = \"stiff, right\"\n"
+            "[[variant.tissue.region]]\nname = \"cheek_R\"\nyoung_factor = 5",
+            "made_up.toml")) {
+    session_.run();
+    session_.find_certainty();
+    budget_ = face_budget(session_);
+  }
+  const session::FaceSession& session() const { return session_; }
+  const FaceBudget& budget() const { return budget_; }
+
+  const BudgetedFigure& figure(FigureKind kind, const std::string& point, char side) const {
+    return *std::ranges::find_if(budget_.figures, [&](const BudgetedFigure& figure) {
+      return figure.kind == kind && figure.point == point && figure.side == side;
+    });
+  }
+
+ private:
+  session::FaceSession session_;
+  FaceBudget budget_;
+};
+
+const CoarseFace& coarse_face() {
+  static const CoarseFace face;
+  return face;
+}
+
+TEST(FaceBudget, HasEveryFigureOfTheRun) {
+  const CoarseFace& face = coarse_face();
+  const auto& pairs = face.session().symmetry().excursions.pairs;
+  EXPECT_EQ(face.budget().figures.size(), 5 * pairs.size()) << "R, L, difference, two changes";
+  EXPECT_EQ(face.budget().corners, "cheilion");
+  EXPECT_TRUE(face.budget().jitter_known);
+  EXPECT_EQ(face.budget().assumed.size(), 8u);
+  const auto& changed = face.session().variants().at(0).symmetry.excursions.pairs;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto& name = pairs[i].name;
+    EXPECT_EQ(face.figure(FigureKind::excursion, name, 'R').value_mm,
+              pairs[i].right_side.excursion_mm);
+    EXPECT_EQ(face.figure(FigureKind::difference, name, 0).value_mm, pairs[i].difference_mm());
+    const BudgetedFigure& change = face.figure(FigureKind::change, name, 'L');
+    EXPECT_EQ(change.variant, "stiff, right");
+    EXPECT_NEAR(change.value_mm,
+                changed[i].left_side.excursion_mm - pairs[i].left_side.excursion_mm, 1e-12);
+  }
+}
+
+TEST(FaceBudget, JitterOfOneSideIsHalfOfThatOfADifference) {
+  const CoarseFace& face = coarse_face();
+  const auto variance = [&](FigureKind kind, char side, ErrorPart part) {
+    return face.figure(kind, "cheilion", side).errors.variance(part);
+  };
+  const double both = variance(FigureKind::difference, 0, ErrorPart::jitter);
+  EXPECT_GT(both, 0);
+  EXPECT_NEAR(variance(FigureKind::excursion, 'R', ErrorPart::jitter), both / 2, 1e-12);
+  const BudgetedFigure& change = face.figure(FigureKind::change, "cheilion", 'R');
+  const double share =
+      change.value_mm / face.figure(FigureKind::excursion, "cheilion", 'R').value_mm;
+  EXPECT_NEAR(change.errors.variance(ErrorPart::jitter), both / 2 * share * share, 1e-12);
+}
+
+/// The corners are driven: whatever mesh, muscles or law, they go where they were recorded. A cheek
+/// is not.
+TEST(FaceBudget, WhatIsDrivenDependsOnTheRecordingAlone) {
+  const CoarseFace& face = coarse_face();
+  const auto sigma = [&](const std::string& point, ErrorPart part) {
+    return std::sqrt(face.figure(FigureKind::excursion, point, 'R').errors.variance(part));
+  };
+  for (const ErrorPart part : {ErrorPart::mesh, ErrorPart::muscles, ErrorPart::stiffness})
+    EXPECT_LT(sigma("cheilion", part), 0.02) << name_of(part);
+  EXPECT_GT(sigma("cheek", ErrorPart::mesh), 0.02);
+  EXPECT_GT(sigma("cheek", ErrorPart::muscles), 0.02);
+  EXPECT_GT(sigma("cheek", ErrorPart::law), 0.02);
+}
+
+TEST(FaceBudget, IsWrittenAsATableAndInWords) {
+  const CoarseFace& face = coarse_face();
+  const TestFolder folder;
+  write_budget_csv(folder / "error_budget.csv", face.budget());
+  const std::string table = read_file(folder / "error_budget.csv");
+  EXPECT_THAT(table, testing::StartsWith(
+                         "variant,point,side,figure,value_mm,half_width_95_mm,decided,"
+                         "largest_part,jitter_mm,head_pose_mm,landmarks_mm,mesh_mm,muscles_mm,"
+                         "stiffness_mm,law_mm\n"));
+  EXPECT_THAT(table, testing::HasSubstr("\n\"stiff, right\",cheilion,R,change,"));
+  EXPECT_EQ(std::ranges::count(table, '\n'), 1 + int(face.budget().figures.size()));
+  const auto sentences = corner_sentences(face.budget());
+  ASSERT_EQ(sentences.size(), 5u);
+  EXPECT_THAT(sentences[0],
+              testing::MatchesRegex("right corner of the mouth: .* mm \\(95 %: .*; mostly .*\\)"));
+  EXPECT_THAT(sentences[2], testing::StartsWith("corners of the mouth, left less right: "));
+  EXPECT_THAT(sentences[3],
+              testing::StartsWith("stiff, right: the right corner of the mouth changes by "));
+  const auto json = budget_json(face.budget());
+  EXPECT_EQ(json["corners_of_the_mouth"].size(), 5u);
+  EXPECT_EQ(json["sentences"].size(), 5u);
+}
+
+}  // namespace
+}  // namespace hyperex::uncertainty
