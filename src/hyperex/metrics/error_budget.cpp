@@ -11,8 +11,8 @@ namespace hyperex::metrics {
 
 std::string name_of(ErrorPart part) {
   static const std::array<const char*, kErrorParts.size()> names = {
-      "jitter",  "head pose", "axes", "landmarks", "mesh",
-      "muscles", "stiffness", "law",  "repetition"};
+      "jitter",  "head pose", "axes",      "landmarks", "mesh",
+      "muscles", "inversion", "stiffness", "law",       "repetition"};
   return names[std::size_t(part)];
 }
 

@@ -14,14 +14,15 @@ enum class ErrorPart {
   landmarks,   ///< on the scan
   mesh,        ///< of the tissue
   muscles,     ///< where they lie, and how the work is shared among them
+  inversion,   ///< forces that are found from points alone
   stiffness,   ///< of the tissue, relative to its support
   law,         ///< small or finite strain
   repetition,  ///< a person's own variation
 };
 inline constexpr std::array kErrorParts = {
-    ErrorPart::jitter,    ErrorPart::head_pose, ErrorPart::axes,
-    ErrorPart::landmarks, ErrorPart::mesh,      ErrorPart::muscles,
-    ErrorPart::stiffness, ErrorPart::law,       ErrorPart::repetition};
+    ErrorPart::jitter, ErrorPart::head_pose, ErrorPart::axes,      ErrorPart::landmarks,
+    ErrorPart::mesh,   ErrorPart::muscles,   ErrorPart::inversion, ErrorPart::stiffness,
+    ErrorPart::law,    ErrorPart::repetition};
 /// "jitter", "head pose", ...
 std::string name_of(ErrorPart part);
 

@@ -115,7 +115,8 @@ std::string variant_lines(const Json& summary) {
   if (!lines.empty())
     lines +=
         "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: "
-        "what one other mesh and 95 % of the recording's jitter could make)\n";
+        "what one other mesh and 95 % of the recording's jitter could make; --error-budget states "
+        "all that could)\n";
   return lines;
 }
 

@@ -18,9 +18,9 @@ using metrics::ErrorPart;
 using Json = nlohmann::ordered_json;
 
 /// Those that a run of a face has.
-constexpr std::array kParts = {ErrorPart::jitter, ErrorPart::head_pose, ErrorPart::landmarks,
-                               ErrorPart::mesh,   ErrorPart::muscles,   ErrorPart::stiffness,
-                               ErrorPart::law};
+constexpr std::array kParts = {ErrorPart::jitter,    ErrorPart::head_pose, ErrorPart::landmarks,
+                               ErrorPart::mesh,      ErrorPart::muscles,   ErrorPart::inversion,
+                               ErrorPart::stiffness, ErrorPart::law};
 
 std::string name_of(FigureKind kind) {
   if (kind == FigureKind::excursion) return "excursion";
@@ -56,12 +56,18 @@ Json json_of(const BudgetedFigure& figure) {
   return json;
 }
 
+/// Without the sign of a zero.
+std::string rounded_mm(double mm) {
+  return fmt::format("{:.1f}", std::round(10 * mm) / 10 + 0.0);
+}
+
 /// "right -3.2 mm (95 %: -4.6 to -1.8; mostly muscles)"
 std::string interval_words(const BudgetedFigure& figure) {
   const double half = figure.half_width_95_mm();
-  std::string words = fmt::format("{:.1f} mm (95 %: {:.1f} to {:.1f}; mostly {})", figure.value_mm,
-                                  figure.value_mm - half, figure.value_mm + half,
-                                  metrics::name_of(figure.errors.largest()));
+  std::string words =
+      fmt::format("{} mm (95 %: {} to {}; mostly {})", rounded_mm(figure.value_mm),
+                  rounded_mm(figure.value_mm - half), rounded_mm(figure.value_mm + half),
+                  metrics::name_of(figure.errors.largest()));
   if (figure.kind != FigureKind::excursion && !figure.decided()) words += ", undecided";
   return words;
 }

@@ -106,6 +106,14 @@ void add_recording(const PairExcursion& base, const Place& place, double value_m
     errors.add(part, share * both.variance(part));
 }
 
+/// Forces that are found from points act elsewhere than the true ones; where displacements drive,
+/// nothing is found.
+void add_inversion(const scene::Scene& scene, const Place& place, double value_mm,
+                   metrics::ErrorBudget& errors) {
+  if (place.kind != FigureKind::change || scene.drive.by == simulate::DriveBy::displacement) return;
+  errors.add(ErrorPart::inversion, std::pow(kInversion * value_mm, 2));
+}
+
 /// What the figures of other faces say of the errors of the face's own.
 class OtherFaces {
  public:
@@ -221,6 +229,7 @@ FaceBudget face_budget(const session::FaceSession& session, const std::function<
         place.point,   place.side,
         others.own(i), others.errors(i)};
     add_recording(pair_named(own.front(), place.point), place, figure.value_mm, figure.errors);
+    add_inversion(scene, place, figure.value_mm, figure.errors);
     out.figures.push_back(std::move(figure));
   }
   return out;
