@@ -16,15 +16,10 @@ using nlohmann::json;
 const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "contact_sheet.png",
                                         "excursions.csv",  "motion.csv",    "muscles.png",
                                         "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};
-const std::set<std::string> kOfARun = {"error_budget.csv",
-                                       "frames.pvd",
-                                       "performance.glb",
-                                       "report.html",
-                                       "summary.json",
-                                       "variants.csv",
-                                       "variants.png",
-                                       "variants_excursions.csv",
-                                       "variants_symmetry.png"};
+const std::set<std::string> kOfARun = {
+    "error_budget.csv",     "frames.pvd",   "performance.glb", "report.html",
+    "summary.json",         "variants.csv", "variants.png",    "variants_excursions.csv",
+    "variants_symmetry.png"};
 
 bool is_name_of_an_output(const std::string& name) {
   if (kOfAFace.contains(name) || kOfARun.contains(name)) return true;
