@@ -80,7 +80,7 @@ void bind_excursion_change(py::module_& m) {
 void bind_excursions(py::module_& m) {
   py::class_<SideExcursion>(m, "SideExcursion", "Of one side of a pair of points.")
       .def_readonly("excursion_mm", &SideExcursion::excursion_mm,
-                    "Largest distance from the place in the first sample.")
+                    "Largest distance of the smoothed path from its first sample.")
       .def_readonly("path_mm", &SideExcursion::path_mm, "Length of the whole way, smoothed.")
       .def_readonly("peak_speed_mm_s", &SideExcursion::peak_speed_mm_s, "Largest speed, smoothed.");
   py::class_<PairExcursion>(m, "PairExcursion", "A point and its counterpart on the other side.")
@@ -93,7 +93,8 @@ void bind_excursions(py::module_& m) {
       .def_readonly("speed_correlation", &PairExcursion::speed_correlation)
       .def_property_readonly("difference_mm", &PairExcursion::difference_mm, "Left less right.")
       .def_readonly("undecided", &PairExcursion::undecided,
-                    "The excursions differ by less than jitter or mesh alone explain.")
+                    "The excursions differ by less than jitter, the mesh and the head's pose "
+                    "together explain.")
       .def("__repr__", [](const PairExcursion& pair) {
         return fmt::format("<hyperex.PairExcursion {}: left {:.2f} mm, right {:.2f} mm>", pair.name,
                            pair.left_side.excursion_mm, pair.right_side.excursion_mm);

@@ -260,7 +260,7 @@ void run(const SymmetryOptions& options) {
     all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
   metrics::add_pose_floors(
-      all.excursions, metrics::pose_floors_mm(steady, stabilised.poses, all.excursions.lowpass_hz));
+      all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
   report(options, all, jitter, stabilised);
 }
 
@@ -312,7 +312,8 @@ void add_symmetry(CLI::App& program) {
       ->capture_default_str();
   command
       ->add_option("--lowpass-hz", options->lowpass_hz,
-                   "Cut-off frequency (Hz) of the zero-phase low-pass filter for speeds and paths "
+                   "Cut-off frequency (Hz) of the zero-phase low-pass filter for excursions, "
+                   "speeds and paths "
                    "where there is jitter; 0: no filter")
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();

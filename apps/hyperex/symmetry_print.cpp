@@ -84,7 +84,8 @@ void print_excursions(const metrics::Excursions& excursions) {
                              cell(p.speed_correlation, 3), undecided_note(p));
   if (excursions.lowpass_hz > 0)
     std::cout << fmt::format(
-        "speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter and, for "
+        "excursions and speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter "
+        "and, for "
         "excursions, the head's pose make\n",
         excursions.lowpass_hz);
 }

@@ -35,11 +35,10 @@ double greatest(const std::vector<double>& values) {
   return values.empty() ? kNan : values[index_of_greatest(values)];
 }
 
-SmoothTrack smoothed_mm(const motion::Motion& motion, const std::vector<int>& columns,
-                        double lowpass_hz) {
+SmoothTrack smoothed_mm(const motion::Motion& motion, int column, double lowpass_hz) {
   Points track(static_cast<Eigen::Index>(motion.positions.size()), 3);
   for (Eigen::Index k = 0; k < track.rows(); ++k)
-    track.row(k) = 1e3 * place(motion, static_cast<size_t>(k), columns);
+    track.row(k) = 1e3 * place(motion, static_cast<size_t>(k), {column});
   return lowpassed(motion.time_s, track, lowpass_hz);
 }
 
@@ -50,7 +49,7 @@ struct Path {
 };
 
 Path path_of(const motion::Motion& motion, int column, double lowpass_hz) {
-  const SmoothTrack track = smoothed_mm(motion, {column}, lowpass_hz);
+  const SmoothTrack track = smoothed_mm(motion, column, lowpass_hz);
   Path path{track.value, {}, {}};
   for (Eigen::Index k = 0; k < track.value.rows(); ++k) {
     path.distance_mm.push_back((track.value.row(k) - track.value.row(0)).norm());
@@ -147,18 +146,29 @@ void judge_speeds(const motion::Motion& motion, const std::vector<double>& left,
   if (l.peak_speed_mm_s < pair.peak_speed_floor_mm_s) pair.speed_ratio = kNan;
 }
 
-/// Four positions, each with the noise that the filter leaves of it. Jitter that lasts longer than
-/// white noise would is not filtered away.
-double jitter_floor_mm(const motion::Motion& motion, const std::array<const Path*, 2>& sides,
-                       double widening, double jitter_m, double lowpass_hz) {
-  if (!(jitter_m > 0)) return 0;
-  double variance = 0;
+/// The noise that the filter leaves of a measured sample of white noise.
+double noise_left(const std::vector<double>& time_s, const Path& path, std::size_t sample,
+                  double lowpass_hz) {
+  std::vector<double> measured_s;
+  std::size_t own = 0;
+  for (std::size_t k = 0; k < time_s.size(); ++k) {
+    if (k == sample) own = measured_s.size();
+    if (path.position_mm.row(Eigen::Index(k)).allFinite()) measured_s.push_back(time_s[k]);
+  }
+  return lowpassed_noise(measured_s, own, lowpass_hz);
+}
+
+/// Of the four positions of both sides. Jitter that lasts longer than white noise would is not
+/// filtered away.
+double jitter_share(const std::vector<double>& time_s, const std::array<const Path*, 2>& sides,
+                    double widening, double lowpass_hz) {
+  double squares = 0;
   for (const Path* side : sides)
     for (const std::size_t sample : {std::size_t(0), index_of_greatest(side->distance_mm)}) {
-      const double share = lowpassed_noise(motion.time_s, sample, lowpass_hz);
-      variance += std::pow(std::fmin(1, widening * share), 2);
+      const double left = noise_left(time_s, *side, sample, lowpass_hz);
+      squares += std::pow(std::fmin(1, widening * left), 2);
     }
-  return kWithin95 * 1e3 * jitter_m * std::sqrt(variance);
+  return squares / 4;
 }
 
 PairExcursion pair_of(const motion::Motion& motion, int left, int right, double jitter_m,
@@ -175,8 +185,10 @@ PairExcursion pair_of(const motion::Motion& motion, int left, int right, double 
   pair.path_ratio = ratio(r.path_mm, l.path_mm);
   pair.speed_ratio = ratio(r.peak_speed_mm_s, l.peak_speed_mm_s);
   judge_speeds(motion, left_path.speed_mm_s, right_path.speed_mm_s, floor, pair);
-  pair.jitter_floor_mm = jitter_floor_mm(motion, {&left_path, &right_path}, pair.jitter_widening,
-                                         jitter_m, lowpass_hz);
+  if (jitter_m > 0)
+    pair.jitter_share =
+        jitter_share(motion.time_s, {&left_path, &right_path}, pair.jitter_widening, lowpass_hz);
+  pair.jitter_floor_mm = kWithin95 * 2 * 1e3 * jitter_m * std::sqrt(pair.jitter_share);
   pair.judge();
   return pair;
 }
@@ -205,7 +217,7 @@ Commissure commissure_of(const motion::Motion& motion, double lowpass_hz) {
   Path left = path_of(motion, mouth.left, lowpass_hz),
        right = path_of(motion, mouth.right, lowpass_hz);
   if (const int lip = either("labiale_inferius"); lip >= 0) {
-    const Points lip_mm = smoothed_mm(motion, {lip}, lowpass_hz).value;
+    const Points lip_mm = smoothed_mm(motion, lip, lowpass_hz).value;
     mouth.left_from_midlip_mm = change_of_distance_mm(left.position_mm, lip_mm);
     mouth.right_from_midlip_mm = change_of_distance_mm(right.position_mm, lip_mm);
   }
@@ -224,6 +236,11 @@ std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
   for (size_t k = 0; k < motion.positions.size(); ++k)
     out.push_back(1e3 * (place(motion, k, columns) - place(motion, 0, columns)).norm());
   return out;
+}
+
+std::vector<double> smooth_distance_mm(const motion::Motion& motion, int column,
+                                       double lowpass_hz) {
+  return path_of(motion, column, lowpass_hz).distance_mm;
 }
 
 Excursions excursions_of(const motion::Motion& motion, double jitter_m, double lowpass_hz) {

@@ -18,10 +18,15 @@ constexpr double kUsualLowpass_hz = 6;
 /// is the mean of `columns`. NaN where it is not measured.
 std::vector<double> distance_from_rest_mm(const motion::Motion& motion,
                                           const std::vector<int>& columns);
+/// The same of one point whose track is smoothed (lowpassed; 0: not).
+std::vector<double> smooth_distance_mm(const motion::Motion& motion, int column, double lowpass_hz);
+
 struct SideExcursion {
   double excursion_mm = 0;     ///< largest distance of the smoothed path from its first sample
   double path_mm = 0;          ///< length of the smoothed path over all samples
   double peak_speed_mm_s = 0;  ///< largest smoothed speed, excluding both ends (greatest_inside)
+  /// How far an error of the head's pose may change the excursion, 95 %; 0: none, or it is known.
+  double pose_floor_mm = 0;
 };
 
 /// A point and its counterpart on the other side. Ratios are right over left, as the affected side
@@ -47,9 +52,10 @@ struct PairExcursion {
   /// order along the path. n is the noise that the filter leaves (lowpassed_noise) times
   /// `jitter_widening`, at most 1. 0 if the jitter is unknown.
   double jitter_floor_mm = 0;
-  /// Greatest speed of the quieter side in its quietest half second, relative to white jitter, at
-  /// least 1.
+  /// The rms speed of the quieter side in its quietest half second, relative to that of white
+  /// jitter, at least 1.
   double jitter_widening = 1;
+  double jitter_share = 1;  ///< mean of n^2: the share of jitter's variance that is left
   /// NaN: no floor known (mesh_floor.hpp).
   double mesh_floor_mm = std::numeric_limits<double>::quiet_NaN();
   /// How far an error of the head's pose may part the two excursions, 95 %; 0: no head pose was

@@ -97,14 +97,31 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
   return out;
 }
 
+motion::Motion lowpassed(motion::Motion motion, double cutoff_hz) {
+  if (!(cutoff_hz > 0)) return motion;
+  const auto samples = Index(motion.positions.size());
+  for (Index p = 0; p < Index(motion.names.size()); ++p) {
+    Points track(samples, 3);
+    for (Index k = 0; k < samples; ++k) track.row(k) = motion.positions[std::size_t(k)].row(p);
+    track = lowpassed(motion.time_s, track, cutoff_hz).value;
+    for (Index k = 0; k < samples; ++k) motion.positions[std::size_t(k)].row(p) = track.row(k);
+  }
+  return motion;
+}
+
 double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz) {
-  const auto count = Index(time_s.size()), at = Index(sample);
-  if (!(cutoff_hz > 0) || count < 3) return 1;
+  if (!(cutoff_hz > 0) || time_s.size() < 3) return 1;
+  const double reach_s = 2 / cutoff_hz;
+  const auto from = std::ranges::lower_bound(time_s, time_s[sample] - reach_s),
+             to = std::ranges::upper_bound(time_s, time_s[sample] + reach_s);
+  const std::vector<double> near(from, to);
+  const auto count = Index(near.size()), at = Index(sample) - Index(from - time_s.begin());
+  if (count < 3) return 1;
   Points impulse = Points::Zero(count, 3);
   impulse(at, 0) = 1;
-  const Eigen::VectorXd response = lowpassed(time_s, impulse, cutoff_hz).value.col(0);
+  const Eigen::VectorXd response = lowpassed(near, impulse, cutoff_hz).value.col(0);
   const Eigen::VectorXd weight =
-      intervals_of(Eigen::Map<const Eigen::VectorXd>(time_s.data(), count));
+      intervals_of(Eigen::Map<const Eigen::VectorXd>(near.data(), count));
   return response.cwiseProduct(weight).norm() / weight(at);
 }
 

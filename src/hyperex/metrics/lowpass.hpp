@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
+#include "hyperex/motion/motion.hpp"
 
 namespace hyperex::metrics {
 
@@ -25,9 +26,14 @@ struct SmoothTrack {
 /// accurate.
 SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz);
 
+/// All tracks of a motion; with a cut-off of 0 the motion as it is.
+motion::Motion lowpassed(motion::Motion motion, double cutoff_hz);
+
 /// The standard deviation of a filtered sample if the track is white noise of standard deviation 1;
-/// 1 for a cut-off of 0. The filter is linear. Its matrix S fulfils S' W = W S with the diagonal
-/// matrix W of the h_i, so that the row of a sample follows from the response to an impulse there.
+/// 1 for a cut-off of 0 and for fewer than three samples. `time_s`: of the measured samples. The
+/// filter is linear. Its matrix S fulfils S' W = W S with the diagonal matrix W of the h_i, so that
+/// the row of a sample follows from the response to an impulse there. Two periods of the cut-off to
+/// either side are enough: the response falls as exp(-4.4 cutoff_hz |t|).
 double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
 
 /// The share of the variance of white noise that filtering leaves in the difference between a

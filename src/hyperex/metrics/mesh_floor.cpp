@@ -48,11 +48,11 @@ std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motio
 }
 
 double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& twin, int left,
-                               int right) {
+                               int right, double lowpass_hz) {
   double most = 0;
   for (const auto& [here, there] : {std::pair{left, right}, {right, left}}) {
-    const auto own = distance_from_rest_mm(run, {here}),
-               other = distance_from_rest_mm(twin, {there});
+    const auto own = smooth_distance_mm(run, here, lowpass_hz),
+               other = smooth_distance_mm(twin, there, lowpass_hz);
     for (size_t i = 0; i < own.size() && i < other.size(); ++i)
       if (const double apart = std::abs(own[i] - other[i]); apart > most) most = apart;
   }
@@ -68,9 +68,10 @@ void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::
 
 void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const motion::Motion& twin) {
   for (PairExcursion& pair : excursions.pairs) {
-    pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right);
-    pair.twin_left_mm = greatest_mm(distance_from_rest_mm(twin, {pair.right}));
-    pair.twin_right_mm = greatest_mm(distance_from_rest_mm(twin, {pair.left}));
+    const double lowpass_hz = excursions.lowpass_hz;
+    pair.mesh_floor_mm = excursion_mesh_floor_mm(run, twin, pair.left, pair.right, lowpass_hz);
+    pair.twin_left_mm = greatest_mm(smooth_distance_mm(twin, pair.right, lowpass_hz));
+    pair.twin_right_mm = greatest_mm(smooth_distance_mm(twin, pair.left, lowpass_hz));
     pair.judge();
   }
 }

@@ -33,8 +33,9 @@ std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motio
 
 /// The floor of excursion_L - excursion_R of a pair (mm): the greatest value over time of |e_L -
 /// e'_R| and |e_R - e'_L|, with e(t) the distance from rest, plus kResolution_m.
+/// `lowpass_hz`: as Excursions has it.
 double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& twin, int left,
-                               int right);
+                               int right, double lowpass_hz = 0);
 
 /// Adds the mesh floors to the curve and to all pairs, and updates which values are undecided.
 void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::Motion& run,

@@ -20,53 +20,74 @@ struct Sensitivity {
 };
 
 Sensitivity sensitivity_of(const motion::Motion& steady,
-                           const std::vector<motion::UncertainPose>& poses, int column) {
+                           const std::vector<motion::UncertainPose>& poses, int column,
+                           double lowpass_hz) {
   Sensitivity out;
   double most = 0;
-  const Vec3 rest = steady.positions.front().row(column).transpose();
+  Points track(Eigen::Index(steady.positions.size()), 3);
+  for (Eigen::Index k = 0; k < track.rows(); ++k)
+    track.row(k) = steady.positions[std::size_t(k)].row(column);
+  track = lowpassed(steady.time_s, track, lowpass_hz).value;
   for (std::size_t k = 1; k < steady.positions.size(); ++k) {
-    const Vec3 p = steady.positions[k].row(column).transpose();
-    const double moved = (p - rest).norm();
+    const Vec3 p = track.row(Eigen::Index(k)).transpose();
+    const Vec3 way = p - track.row(0).transpose();
+    const double moved = way.norm();
     if (!(moved > most)) continue;
     most = moved;
     out.sample = k;
-    out.row = (p - rest).transpose() / moved * motion::pose_derivative(p - poses[k].centre);
+    out.row = 1e3 * way.transpose() / moved * motion::pose_derivative(p - poses[k].centre);
   }
   return out;
 }
 
+PoseVariance variance_of(const Row6& row, const motion::UncertainPose& pose) {
+  return {std::max(0.0, (row * pose.covariance * row.transpose()).value()),
+          std::max(0.0, (row * pose.of_jitter * row.transpose()).value())};
+}
+
+/// What is left of the variance where the filter leaves a share of the jitter.
+double floor_mm(const PoseVariance& variance, double jitter_share) {
+  return kWithin95 *
+         std::sqrt(std::max(0.0, variance.all - (1 - jitter_share) * variance.of_jitter));
+}
+
 }  // namespace
 
-double excursion_pose_floor_mm(const motion::Motion& steady,
+PairPoseVariance pose_variance(const motion::Motion& steady,
                                const std::vector<motion::UncertainPose>& poses, int left, int right,
                                double lowpass_hz) {
-  if (poses.size() != steady.positions.size() || poses.empty()) return 0;
-  const Sensitivity l = sensitivity_of(steady, poses, left),
-                    r = sensitivity_of(steady, poses, right);
-  const auto variance = [&](const Row6& row, std::size_t sample) -> double {
-    const double share = jitter_left(steady.time_s, sample, lowpass_hz);
-    return row * poses[sample].filtered(share) * row.transpose();
-  };
-  const double all = l.sample == r.sample ? variance(l.row - r.row, l.sample)
-                                          : variance(l.row, l.sample) + variance(r.row, r.sample);
-  return 1e3 * kWithin95 * std::sqrt(std::max(0.0, all));
+  PairPoseVariance out;
+  if (poses.size() != steady.positions.size() || poses.empty()) return out;
+  const Sensitivity l = sensitivity_of(steady, poses, left, lowpass_hz),
+                    r = sensitivity_of(steady, poses, right, lowpass_hz);
+  out.left = variance_of(l.row, poses[l.sample]);
+  out.right = variance_of(r.row, poses[r.sample]);
+  out.difference = l.sample == r.sample ? variance_of(l.row - r.row, poses[l.sample])
+                                        : PoseVariance{out.left.all + out.right.all,
+                                                       out.left.of_jitter + out.right.of_jitter};
+  return out;
 }
 
-std::map<std::string, double> pose_floors_mm(const motion::Motion& steady,
-                                             const std::vector<motion::UncertainPose>& poses,
-                                             double lowpass_hz) {
-  std::map<std::string, double> floors;
+std::map<std::string, PairPoseVariance> pose_variances(
+    const motion::Motion& steady, const std::vector<motion::UncertainPose>& poses,
+    double lowpass_hz) {
+  std::map<std::string, PairPoseVariance> all;
   for (const PointPair& pair : point_pairs(steady))
-    floors[pair.name] = excursion_pose_floor_mm(steady, poses, pair.left, pair.right, lowpass_hz);
-  return floors;
+    all[pair.name] = pose_variance(steady, poses, pair.left, pair.right, lowpass_hz);
+  return all;
 }
 
-void add_pose_floors(Excursions& excursions, const std::map<std::string, double>& floors_mm) {
-  double most = 0;
-  for (const auto& [name, floor] : floors_mm) most = std::max(most, floor);
+void add_pose_floors(Excursions& excursions,
+                     const std::map<std::string, PairPoseVariance>& variances, double gain) {
+  const auto greatest = std::ranges::max_element(
+      variances, {}, [](const auto& one) { return one.second.difference.all; });
   for (PairExcursion& pair : excursions.pairs) {
-    const auto own = floors_mm.find(pair.name);
-    pair.pose_floor_mm = own != floors_mm.end() ? own->second : most;
+    auto own = variances.find(pair.name);
+    if (own == variances.end()) own = greatest;
+    if (own == variances.end()) continue;
+    pair.pose_floor_mm = gain * floor_mm(own->second.difference, pair.jitter_share);
+    pair.left_side.pose_floor_mm = gain * floor_mm(own->second.left, pair.jitter_share);
+    pair.right_side.pose_floor_mm = gain * floor_mm(own->second.right, pair.jitter_share);
     pair.judge();
   }
 }

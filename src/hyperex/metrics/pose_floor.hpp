@@ -9,25 +9,37 @@
 
 namespace hyperex::metrics {
 
-/// How far an error of the head's pose may part the excursions of two points, 95 %, mm. To first
-/// order an error e of the pose (rotation, translation) changes the excursion of a point at p,
-/// which goes in the direction d, by
+/// The variance of a figure by errors of the head's pose, mm^2, and the part of it that jitter of
+/// the points makes.
+struct PoseVariance {
+  double all = 0, of_jitter = 0;
+};
+
+/// Of the excursion of each side, and of the difference between them.
+struct PairPoseVariance {
+  PoseVariance left, right, difference;
+};
+
+/// To first order an error e of the pose (rotation, translation) changes the excursion of a point
+/// at p, which goes in the direction d, by
 ///   d' A(p - c) e,   A: motion::pose_derivative, c: the centre of the rotation.
-/// The variance of the difference between both sides follows from the covariance of e, less what
-/// filtering takes of jitter's part; errors of different samples are taken as independent.
-/// `steady`: without head pose. `poses`: as motion::StabilisedMotion has them, one per sample; 0
-/// where there are none. `lowpass_hz`: cut-off with which excursions are filtered; 0: they are not.
-double excursion_pose_floor_mm(const motion::Motion& steady,
+/// The variances follow from the covariance of e; errors of different samples are taken as
+/// independent. `steady`: without head pose. `poses`: as motion::StabilisedMotion has them, one per
+/// sample; 0 where there are none. Excursions are greatest in tracks filtered with the cut-off
+/// `lowpass_hz` (0: as they are).
+PairPoseVariance pose_variance(const motion::Motion& steady,
                                const std::vector<motion::UncertainPose>& poses, int left, int right,
                                double lowpass_hz);
 
-/// The floors of all pairs by their names.
-std::map<std::string, double> pose_floors_mm(const motion::Motion& steady,
-                                             const std::vector<motion::UncertainPose>& poses,
-                                             double lowpass_hz);
+/// Of all pairs by their names.
+std::map<std::string, PairPoseVariance> pose_variances(
+    const motion::Motion& steady, const std::vector<motion::UncertainPose>& poses,
+    double lowpass_hz);
 
-/// Sets pose_floor_mm of each pair and judges it again. A pair that `floors_mm` does not name gets
-/// the greatest of them.
-void add_pose_floors(Excursions& excursions, const std::map<std::string, double>& floors_mm);
+/// Sets the pose floors of each pair and judges it again: jitter counts as far as the filter leaves
+/// it (PairExcursion::jitter_share). A pair that `variances` does not name gets the greatest of
+/// them. `gain`: on all displacements.
+void add_pose_floors(Excursions& excursions,
+                     const std::map<std::string, PairPoseVariance>& variances, double gain = 1);
 
 }  // namespace hyperex::metrics

@@ -5,6 +5,7 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
+#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/motion/resample.hpp"
 
 namespace hyperex::metrics {
@@ -118,10 +119,10 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
       };
       c.commissure_left = change(Side::left);
       c.commissure_right = change(Side::right);
-      c.left_from_base =
-          distance_from_base(base.performance.landmarks, run.performance.landmarks, left);
+      const motion::Motion own = lowpassed(base.performance.landmarks, before.lowpass_hz),
+                           run_own = lowpassed(run.performance.landmarks, excursions.lowpass_hz);
+      c.left_from_base = distance_from_base(own, run_own, left);
       const int right = excursions.pairs[i].right;
-      const motion::Motion &own = base.performance.landmarks, &run_own = run.performance.landmarks;
       c.right_from_base = distance_from_base(own, run_own, right);
       c.left_along_base_mm = along_base_mm(own, run_own, left);
       c.right_along_base_mm = along_base_mm(own, run_own, right);

@@ -114,7 +114,7 @@ class Witnesses {
       move.translate(-centre_);
       pose = pose * move;
     }
-    return {pose, w.covariance, of_jitter(w), centre_};
+    return {pose, w.covariance, Matrix6::Zero(), centre_};
   }
 
   /// The part of the covariance that the jitter makes: K (2 s^2 I) K', where K = (J' S^-1 J)^-1 J'
@@ -278,11 +278,9 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
         witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
     // A motion of the brows that was taken for a motion of the head leaves no trace in the lower
     // face.
-    if (a[0] > a[1]) {
-      const Witnesses::Weighing wide = witnesses.weigh({a[0], a[0]});
-      poses.back().covariance = wide.covariance;
-      poses.back().of_jitter = witnesses.of_jitter(wide);
-    }
+    const Witnesses::Weighing wide = witnesses.weigh({a[0], std::max(a[0], a[1])});
+    poses.back().covariance = wide.covariance;
+    poses.back().of_jitter = witnesses.of_jitter(wide);
     progress.update(long(samples + k + 1));
   }
   return poses;

@@ -91,12 +91,15 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   session.find_certainty(cancelled);
   results.notes = session.notes();
   if (!written.variants.is_null()) summary["variants"] = written.variants;
+  double budget_s = 0;
   if (results.scene.output.error_budget) {
+    Stopwatch watch;
     const uncertainty::FaceBudget budget = uncertainty::face_budget(session, cancelled);
     uncertainty::write_budget_csv(directory / "error_budget.csv", budget);
     summary["error_budget"] = uncertainty::budget_json(budget);
     for (const std::string& sentence : uncertainty::corner_sentences(budget))
       results.notes.push_back(make_note("run.error_budget", sentence));
+    budget_s = watch.lap();
   }
   if (written.glb) {
     summary["glb"] = glb_json(*written.glb);
@@ -108,7 +111,8 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   name_files(results.scene, results.notes);
   Json seconds = seconds_json(session);
   if (!written.variants.is_null()) seconds["variants"] = session.seconds().variants;
-  seconds["export"] = stage.lap() - session.seconds().variants;
+  if (budget_s > 0) seconds["error_budget"] = budget_s;
+  seconds["export"] = stage.lap() - session.seconds().variants - budget_s;
   seconds["total"] = total.lap();
   summary["seconds"] = seconds;
   summary["notes"] = texts_of(results.notes);

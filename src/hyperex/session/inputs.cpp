@@ -64,7 +64,7 @@ Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& 
   append(in.notes, recording.notes);
   in.head_shift_uncertainty_mm = recording.head_shift_uncertainty_mm;
   in.head_turn_uncertainty_deg = recording.head_turn_uncertainty_deg;
-  in.pose_floor_mm = recording.pose_floor_mm;
+  in.pose_variance = recording.pose_variance;
   in.lasts_s = recording.lasts_s;
   in.lead_s = recording.lead_s;
   problems.add(files.scan.problems);

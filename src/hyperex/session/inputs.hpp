@@ -7,6 +7,7 @@
 #include "hyperex/core/note.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 
@@ -21,9 +22,8 @@ struct Inputs {
   simulate::AlignedMotion motion;   ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
-  /// How far an error of the head's pose may part the sides, by the recording's pairs of points
-  /// (metrics/pose_floor.hpp), without motion.gain.
-  std::map<std::string, double> pose_floor_mm;
+  /// What errors of the head's pose make, by the recording's pairs of points, without motion.gain.
+  std::map<std::string, metrics::PairPoseVariance> pose_variance;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
   /// Length of the recording in the run, from time.start_s on; 0: unknown. In a quick reading of a
   /// camera's recording, it is computed from the number of frames.

@@ -190,9 +190,9 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   steady.motion.skull_points = options.rigid_points;
   motion::check_reach(steady.motion);
   note_head(steady, in);
-  // Points that are stated to be exact are not filtered.
-  const double lowpass_hz = scene.output.jitter_m == 0 ? 0 : scene.output.lowpass_hz;
-  if (whole) in.pose_floor_mm = metrics::pose_floors_mm(steady.motion, steady.poses, lowpass_hz);
+  if (whole)
+    in.pose_variance =
+        metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);
   if (whole) {
     settle_rest(scene, steady.motion, in);
     add(in.notes, stillness_warning(steady.motion));

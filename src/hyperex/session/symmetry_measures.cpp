@@ -22,9 +22,7 @@ metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inp
          all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
        }});
   all.no_mesh_floor = twin.why_not;
-  std::map<std::string, double> pose_floors_mm = inputs.pose_floor_mm;
-  for (auto& [name, floor] : pose_floors_mm) floor *= scene.drive.gain;
-  metrics::add_pose_floors(all.excursions, pose_floors_mm);
+  metrics::add_pose_floors(all.excursions, inputs.pose_variance, scene.drive.gain);
   if (twin.why_not.empty())
     metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
   return all;

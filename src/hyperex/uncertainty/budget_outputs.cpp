@@ -31,6 +31,10 @@ std::string side_of(const BudgetedFigure& figure) {
   return figure.side ? std::string(1, figure.side) : "";
 }
 
+std::string cell(double mm) {
+  return std::isfinite(mm) ? fmt::format("{:.6g}", mm) : std::string();
+}
+
 std::string decided_of(const BudgetedFigure& figure) {
   if (figure.kind == FigureKind::excursion) return "";
   return figure.decided() ? "1" : "0";
@@ -42,6 +46,11 @@ std::string column_of(ErrorPart part) {
   return name + "_mm";
 }
 
+/// "jitter"; empty where no part is known.
+std::string largest_part(const BudgetedFigure& figure) {
+  return figure.errors.variance() > 0 ? metrics::name_of(figure.errors.largest()) : "";
+}
+
 Json json_of(const BudgetedFigure& figure) {
   Json json;
   if (!figure.variant.empty()) json["variant"] = figure.variant;
@@ -50,7 +59,7 @@ Json json_of(const BudgetedFigure& figure) {
   json["value_mm"] = figure.value_mm;
   json["half_width_95_mm"] = figure.half_width_95_mm();
   if (figure.kind != FigureKind::excursion) json["decided"] = figure.decided();
-  json["largest_part"] = metrics::name_of(figure.errors.largest());
+  json["largest_part"] = largest_part(figure);
   for (const ErrorPart part : kParts)
     json["parts_mm"][metrics::name_of(part)] = figure.errors.half_width_95(part);
   return json;
@@ -61,13 +70,13 @@ std::string rounded_mm(double mm) {
   return fmt::format("{:.1f}", std::round(10 * mm) / 10 + 0.0);
 }
 
-/// "right -3.2 mm (95 %: -4.6 to -1.8; mostly muscles)"
+/// "-3.2 mm (95 %: -4.6 to -1.8; mostly muscles)"
 std::string interval_words(const BudgetedFigure& figure) {
   const double half = figure.half_width_95_mm();
-  std::string words =
-      fmt::format("{} mm (95 %: {} to {}; mostly {})", rounded_mm(figure.value_mm),
-                  rounded_mm(figure.value_mm - half), rounded_mm(figure.value_mm + half),
-                  metrics::name_of(figure.errors.largest()));
+  const std::string part = largest_part(figure);
+  std::string words = fmt::format(
+      "{} mm (95 %: {} to {}{})", rounded_mm(figure.value_mm), rounded_mm(figure.value_mm - half),
+      rounded_mm(figure.value_mm + half), part.empty() ? "" : "; mostly " + part);
   if (figure.kind != FigureKind::excursion && !figure.decided()) words += ", undecided";
   return words;
 }
@@ -84,12 +93,12 @@ void write_budget_csv(const std::filesystem::path& file, const FaceBudget& budge
     for (const ErrorPart part : kParts) out << ',' << column_of(part);
     out << '\n';
     for (const BudgetedFigure& figure : budget.figures) {
-      fmt::print(out, "{},{},{},{},{:.6g},{:.6g},{},{}", io::in_quotes_where_needed(figure.variant),
+      fmt::print(out, "{},{},{},{},{},{},{},{}", io::in_quotes_where_needed(figure.variant),
                  io::in_quotes_where_needed(figure.point), side_of(figure), name_of(figure.kind),
-                 figure.value_mm, figure.half_width_95_mm(), decided_of(figure),
-                 metrics::name_of(figure.errors.largest()));
+                 cell(figure.value_mm), cell(figure.half_width_95_mm()), decided_of(figure),
+                 largest_part(figure));
       for (const ErrorPart part : kParts)
-        fmt::print(out, ",{:.6g}", figure.errors.half_width_95(part));
+        fmt::print(out, ",{}", cell(figure.errors.half_width_95(part)));
       out << '\n';
     }
   });
@@ -98,7 +107,7 @@ void write_budget_csv(const std::filesystem::path& file, const FaceBudget& budge
 std::vector<std::string> corner_sentences(const FaceBudget& budget) {
   std::vector<std::string> out;
   for (const BudgetedFigure& figure : budget.figures) {
-    if (figure.point != budget.corners) continue;
+    if (figure.point != budget.corners || std::isnan(figure.value_mm)) continue;
     if (figure.kind == FigureKind::difference)
       out.push_back("corners of the mouth, left less right: " + interval_words(figure));
     else if (figure.kind == FigureKind::excursion)
@@ -108,9 +117,10 @@ std::vector<std::string> corner_sentences(const FaceBudget& budget) {
       out.push_back(fmt::format("{}: the {} corner of the mouth changes by {}", figure.variant,
                                 words_of_side(figure.side), interval_words(figure)));
   }
+  if (out.empty()) return out;
   for (const std::string& missing : budget.missing)
     out.push_back("these intervals lack a part that could not be simulated: " + missing);
-  if (!out.empty() && !budget.jitter_known)
+  if (!budget.jitter_known)
     out.push_back(
         "the recording shows no jitter: unless its points are exact, these intervals are too "
         "narrow (output.jitter_mm states a jitter)");

@@ -90,20 +90,20 @@ std::vector<Place> places_of(const FaceExcursions& faces) {
   return out;
 }
 
-/// Jitter and the head's pose. Both are stated for the difference of two sides; one side has half
-/// of that variance. Base and variant share the errors of the recording, which a changed face
-/// scales.
+/// Jitter and the head's pose. One side has half of the jitter of a difference of two. Base and
+/// variant share the errors of the recording, which a changed face scales.
 void add_recording(const PairExcursion& base, const Place& place, double value_mm,
                    metrics::ErrorBudget& errors) {
-  double share = 1;
-  if (place.kind == FigureKind::excursion) share = 0.5;
-  if (place.kind == FigureKind::change) {
-    const double from_mm = excursion(base, place.side);
-    share = from_mm > 0 ? 0.5 * std::pow(value_mm / from_mm, 2) : 0;
+  if (place.kind == FigureKind::difference) {
+    errors += metrics::budget_of_difference(base).without(ErrorPart::mesh);
+    return;
   }
-  const metrics::ErrorBudget both = metrics::budget_of_difference(base);
-  for (const ErrorPart part : {ErrorPart::jitter, ErrorPart::head_pose})
-    errors.add(part, share * both.variance(part));
+  const metrics::SideExcursion& side = place.side == 'L' ? base.left_side : base.right_side;
+  double share = 1;
+  if (place.kind == FigureKind::change)
+    share = side.excursion_mm > 0 ? std::pow(value_mm / side.excursion_mm, 2) : 0;
+  errors.add(ErrorPart::jitter, share * std::pow(base.jitter_floor_mm / kWithin95, 2) / 2);
+  errors.add(ErrorPart::head_pose, share * std::pow(side.pose_floor_mm / kWithin95, 2));
 }
 
 /// Forces that are found from points act elsewhere than the true ones; where displacements drive,
@@ -136,7 +136,7 @@ class OtherFaces {
       if (part == ErrorPart::mesh)
         out.add(part, sample_variance(values, own_[i]), double(values.size()));
       else
-        out.add(part, mean_square(values, own_[i]), freedom_of(values.size()));
+        out.add(part, mean_square(values, own_[i]), freedom_of(part, values.size()));
     }
     return out;
   }
@@ -160,9 +160,10 @@ class OtherFaces {
     for (const double value : values) mean += value / double(values.size());
     return mean_square(values, mean) * double(values.size()) / double(values.size() - 1);
   }
-  /// One run states a derivative; several are a sample.
-  static double freedom_of(std::size_t count) {
-    return count > 1 ? double(count) : std::numeric_limits<double>::infinity();
+  /// Stiffness and law are stated, each by one face. All else is drawn.
+  static double freedom_of(ErrorPart part, std::size_t count) {
+    const bool stated = part == ErrorPart::stiffness || part == ErrorPart::law;
+    return stated ? std::numeric_limits<double>::infinity() : double(count);
   }
 
   std::vector<Place> places_;
@@ -173,24 +174,18 @@ class OtherFaces {
 /// Runs the perturbed faces one after the other. Those that keep the mesh share a session.
 class PerturbedRuns {
  public:
-  explicit PerturbedRuns(const scene::Scene& scene) : scene_(scene) {}
-
   FaceExcursions run(const PerturbedFace& face, const std::function<bool()>& cancelled) {
     const session::SessionOptions quietly{.certainty = session::Certainty::on_request};
     const simulate::RunCallbacks callbacks{.progress = {}, .cancelled = cancelled};
-    if (!face.same_mesh) {
-      session::FaceSession other(face.scene, quietly);
-      other.run(callbacks);
-      return excursions_of(other);
-    }
-    if (!own_) own_.emplace(scene_, quietly);
-    own_->set_scene(face.scene);
-    own_->run(callbacks);
+    if (!face.same_mesh) own_.reset();  // two faces at a time are enough
+    if (!face.same_mesh || !own_) own_.emplace(face.scene, quietly);
+    if (!own_->set_scene(face.scene)) own_.emplace(face.scene, quietly);
+    own_->run_base(callbacks);
+    own_->run_variants(callbacks);
     return excursions_of(*own_);
   }
 
  private:
-  const scene::Scene& scene_;
   std::optional<session::FaceSession> own_;
 };
 
@@ -206,16 +201,22 @@ FaceBudget face_budget(const session::FaceSession& session, const std::function<
   OtherFaces others(places_of(own), own);
   others.add(ErrorPart::mesh, of_twins(own));
   FaceBudget out;
-  out.assumed.push_back("the mirrored mesh");
+  if (std::isnan(value_of(others.places().front(), of_twins(own))))
+    out.missing.push_back("the mirrored mesh: there is no mirrored twin");
+  else
+    out.assumed.push_back("the mirrored mesh");
   out.corners = corners_of(own.front());
   out.jitter_known = own.front().jitter_m > 0 || scene.output.jitter_m == 0;
   Progress progress("error budget", long(faces.size()));
-  PerturbedRuns runs(scene);
+  PerturbedRuns runs;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     progress.update(long(i));
     try {
       others.add(faces[i].part, runs.run(faces[i], cancelled));
     } catch (const NumericalError& error) {
+      out.missing.push_back(fmt::format("{}: {}", faces[i].how, error.what()));
+      continue;
+    } catch (const InputError& error) {  // finite strain does not know every option
       out.missing.push_back(fmt::format("{}: {}", faces[i].how, error.what()));
       continue;
     }

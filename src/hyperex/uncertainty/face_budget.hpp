@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hyperex/metrics/error_budget.hpp"
+#include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/session/face_session.hpp"
 
 namespace hyperex::uncertainty {
@@ -35,8 +36,10 @@ struct BudgetedFigure {
   metrics::ErrorBudget errors;
 
   double half_width_95_mm() const { return errors.half_width_95(); }
-  /// Whether the 95 % interval of a difference or a change excludes 0.
-  bool decided() const { return std::abs(value_mm) > half_width_95_mm(); }
+  /// Whether the 95 % interval of a difference or a change excludes 0, by more than a run resolves.
+  bool decided() const {
+    return std::abs(value_mm) > half_width_95_mm() + 1e3 * metrics::kResolution_m;
+  }
 };
 
 struct FaceBudget {
@@ -54,7 +57,8 @@ struct FaceBudget {
 /// variance among meshes: the face's own, its mirror image (the twin) and three other sizes of the
 /// elements. Jitter and the head's pose are those of the recording; a change is wrong by
 /// the share of them that it takes off. `session`: up to date, its certainty known. Runs the face
-/// twelve times. Throws simulate::Cancelled after `cancelled` returned true.
+/// twelve times, eight where displacements drive. Throws simulate::Cancelled after `cancelled`
+/// returned true.
 FaceBudget face_budget(const session::FaceSession& session,
                        const std::function<bool()>& cancelled = {}, Laws laws = Laws::both);
 

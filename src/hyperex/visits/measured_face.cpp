@@ -68,18 +68,6 @@ void settle_jitter(const motion::Motion& steady, std::optional<double> stated_m,
                     fs::path(steady.source).filename().string(), found.how));
 }
 
-/// The steady motion, low-passed where it has jitter.
-motion::Motion smoothed(motion::Motion motion, double cutoff_hz) {
-  if (!(cutoff_hz > 0)) return motion;
-  for (Eigen::Index p = 0; p < Eigen::Index(motion.names.size()); ++p) {
-    const Points track =
-        metrics::lowpassed(motion.time_s, track_of(motion, {int(p)}), cutoff_hz).value;
-    for (std::size_t k = 0; k < motion.positions.size(); ++k)
-      motion.positions[k].row(p) = track.row(Eigen::Index(k));
-  }
-  return motion;
-}
-
 std::size_t peak_of(const std::vector<double>& movement, const VisitsFile& visits,
                     const fs::path& recording) {
   std::size_t peak = movement.size();
@@ -246,7 +234,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   const motion::StabilisedMotion steady = without_head(motion, visits, face);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
-  const motion::Motion smooth = smoothed(steady.motion, cutoff_hz);
+  const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
   const auto columns = face_points_of(smooth);
   ByFacePoint<Points> tracks;
   for (std::size_t i = 0; i < kFacePoints; ++i)

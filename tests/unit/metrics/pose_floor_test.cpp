@@ -10,7 +10,6 @@
 
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "support/draws.hpp"
 
@@ -40,34 +39,48 @@ std::vector<UncertainPose> uncertain(int component, double sigma) {
   return poses;
 }
 
+/// Of the difference of both sides where the filter leaves this share of jitter.
+double pose_floor_mm(const motion::Motion& motion, const std::vector<UncertainPose>& poses,
+                     double jitter_share = 1) {
+  Excursions all;
+  all.pairs.resize(1);
+  all.pairs[0].jitter_share = jitter_share;
+  add_pose_floors(all, {{"", pose_variance(motion, poses, 0, 1, 0)}});
+  return all.pairs[0].pose_floor_mm;
+}
+
 TEST(PoseFloor, IsWhatAShiftOrATurnMakesOfTheDifference) {
   constexpr int turn_z = 2, shift_x = 3, shift_y = 4;
   const auto apart = pair_moving({5, 0, 0}, {-5, 0, 0}), up = pair_moving({0, 5, 0}, {0, 5, 0});
   // A shift aside lengthens one excursion as it shortens the other.
-  EXPECT_NEAR(excursion_pose_floor_mm(apart, uncertain(shift_x, 1e-4), 0, 1, 0), 1.96 * 0.2, 1e-9);
-  EXPECT_NEAR(excursion_pose_floor_mm(apart, uncertain(shift_y, 1e-4), 0, 1, 0), 0, 1e-9);
-  EXPECT_NEAR(excursion_pose_floor_mm(up, uncertain(shift_y, 1e-4), 0, 1, 0), 0, 1e-9);
+  EXPECT_NEAR(pose_floor_mm(apart, uncertain(shift_x, 1e-4)), 1.96 * 0.2, 1e-9);
+  EXPECT_NEAR(pose_floor_mm(apart, uncertain(shift_y, 1e-4)), 0, 1e-9);
+  EXPECT_NEAR(pose_floor_mm(up, uncertain(shift_y, 1e-4)), 0, 1e-9);
   // A roll lifts one corner and lowers the other by the same, 30 mm times the angle.
-  EXPECT_NEAR(excursion_pose_floor_mm(up, uncertain(turn_z, 1e-3), 0, 1, 0), 1.96 * 2 * 0.03, 1e-9);
-  EXPECT_EQ(excursion_pose_floor_mm(up, {}, 0, 1, 0), 0);
+  EXPECT_NEAR(pose_floor_mm(up, uncertain(turn_z, 1e-3)), 1.96 * 2 * 0.03, 1e-9);
+  EXPECT_EQ(pose_floor_mm(up, {}), 0);
+}
+
+TEST(PoseFloor, OfOneSideContainsWhatBothSidesShare) {
+  const auto up = pair_moving({0, 5, 0}, {0, 5, 0});
+  const PairPoseVariance shift_up = pose_variance(up, uncertain(4, 1e-4), 0, 1, 0);
+  EXPECT_NEAR(shift_up.difference.all, 0, 1e-12);
+  EXPECT_NEAR(shift_up.left.all, 0.01, 1e-9) << "0.1 mm, squared";
+  Excursions all;
+  all.pairs.resize(1);
+  add_pose_floors(all, {{"", shift_up}}, 2);
+  EXPECT_NEAR(all.pairs[0].right_side.pose_floor_mm, 2 * 1.96 * 0.1, 1e-9);
 }
 
 TEST(PoseFloor, FilteringTakesAwayJittersPartAlone) {
-  motion::Motion motion = pair_moving({5, 0, 0}, {-5, 0, 0});
-  for (int k = 2; k < 60; ++k) {
-    motion.time_s.push_back(k);
-    motion.positions.push_back(motion.positions[k > 30 ? 0 : 1]);
-  }
-  for (double& time : motion.time_s) time /= 30;
-  std::vector<UncertainPose> poses(60, uncertain(3, 1e-4)[1]);
-  EXPECT_NEAR(excursion_pose_floor_mm(motion, poses, 0, 1, 6), 1.96 * 0.2, 1e-9);
+  const motion::Motion motion = pair_moving({5, 0, 0}, {-5, 0, 0});
+  std::vector<UncertainPose> poses = uncertain(3, 1e-4);
+  constexpr double left = 0.3;
+  EXPECT_NEAR(pose_floor_mm(motion, poses, left), 1.96 * 0.2, 1e-9);
   for (UncertainPose& pose : poses) pose.of_jitter = 0.5 * pose.covariance;
-  // The greatest excursion is in the second sample.
-  const double left = jitter_left(motion.time_s, 1, 6);
-  EXPECT_LT(left, 0.8);
-  EXPECT_NEAR(excursion_pose_floor_mm(motion, poses, 0, 1, 6),
-              1.96 * 0.2 * std::sqrt(1 - 0.5 * (1 - left)), 1e-9);
-  EXPECT_NEAR(excursion_pose_floor_mm(motion, poses, 0, 1, 0), 1.96 * 0.2, 1e-9);
+  EXPECT_NEAR(pose_floor_mm(motion, poses, left), 1.96 * 0.2 * std::sqrt(1 - 0.5 * (1 - left)),
+              1e-9);
+  EXPECT_NEAR(pose_floor_mm(motion, poses), 1.96 * 0.2, 1e-9);
 }
 
 TEST(PoseFloor, IsTheSpreadOfDifferencesUnderRandomErrorsOfThePose) {
@@ -81,7 +94,7 @@ TEST(PoseFloor, IsTheSpreadOfDifferencesUnderRandomErrorsOfThePose) {
   Eigen::Matrix<double, 6, 6> scaled = root;
   scaled.bottomRows<3>() *= 0.2;
   poses[1].covariance = scaled * scaled.transpose();
-  const double floor = excursion_pose_floor_mm(exact, poses, 0, 1, 0);
+  const double floor = pose_floor_mm(exact, poses);
   const double truth = excursions_of(exact).pairs.at(0).difference_mm();
   int beyond = 0;
   constexpr int draws = 4000;
@@ -141,7 +154,7 @@ TEST(PoseFloor, ASymmetricSmileOfAMovingHeadIsRarelyCalledAsymmetric) {
       return *std::ranges::find(all.pairs, "ibug68_48/54", &PairExcursion::name);
     };
     without_pose += !weak && !corners().undecided;
-    add_pose_floors(all, pose_floors_mm(steady.motion, steady.poses, kUsualLowpass_hz));
+    add_pose_floors(all, pose_variances(steady.motion, steady.poses, kUsualLowpass_hz));
     (weak ? found : decided) += !corners().undecided;
   }
   std::printf("decided: %d of %d symmetric ones (%d without the pose), %d of %d by 1.5 mm\n",

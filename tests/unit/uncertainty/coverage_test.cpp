@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whether the 95 % intervals of a run hold. The truth has another mesh, muscles 2 mm off, other
 // shares of the muscles, tissue stiffer or softer, uneven sides, noise, a head that moves, and
-// landmarks that are 1.5 mm off. HYPEREX_DRAWS=200 makes the table of docs/uncertainty.md.
+// landmarks that are 1.5 mm off. HYPEREX_DRAWS=20 makes the table of docs/uncertainty.md.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

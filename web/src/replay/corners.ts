@@ -28,7 +28,7 @@ const names: [left: string, right: string, pair: string][] = [
 ];
 const largest = (track: (number | null)[]): number => Math.max(0, ...track.map((v) => v ?? 0));
 
-/** 95 % bound of a difference of two positions per side with this jitter per coordinate (metrics/excursion.hpp). */
+/** 95 % bound of a difference of two positions per side with this jitter per coordinate, for a page that states no floor. */
 export const jitterFloorMm = (jitterMm: number): number => 1.96 * 2 * jitterMm;
 
 /** Null where the run has no points at the corners. */

@@ -26,7 +26,7 @@ export interface Excursion {
 }
 
 const groups: { key: 'excursion' | 'path' | 'peak_speed'; unit: string; head: string; digits: number; says: string }[] = [
-  { key: 'excursion', unit: 'mm', head: 'Excursion', digits: 2, says: 'largest distance from the place in the first sample.' },
+  { key: 'excursion', unit: 'mm', head: 'Excursion', digits: 2, says: 'largest distance, smoothed, from the place in the first sample.' },
   { key: 'path', unit: 'mm', head: 'Path', digits: 2, says: 'length of the whole way, from sample to sample; jitter lengthens it.' },
   { key: 'peak_speed', unit: 'mm/s', head: 'Peak speed', digits: 1, says: 'largest speed on the way.' },
 ];
@@ -40,7 +40,7 @@ const correlation: Column = {
 };
 const undecided = {
   head: 'Undecided',
-  says: 'the sides differ by less than the jitter of the points, or the mesh alone, makes of a symmetric motion.',
+  says: 'the sides differ by less than jitter, the mesh and the head’s pose together make of a symmetric motion.',
 };
 
 const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
