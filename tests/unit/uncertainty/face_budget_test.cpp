@@ -99,6 +99,20 @@ TEST(FaceBudget, WhatIsDrivenDependsOnTheRecordingAlone) {
   EXPECT_GT(sigma("cheek", ErrorPart::law), 0.02);
 }
 
+/// Finite strain does not know this drive: its part is missing, and the rest is there.
+TEST(FaceBudget, AFaceThatCannotBeSimulatedIsNamed) {
+  session::FaceSession session(scene::read_scene_text(
+      "scan.file = \"embedded\"\nmotion.file = \"embedded\"\nmesh.element_size_mm = 8\n"
+      "drive.by = \"reactions\"\ntime.step_s = 0.1",
+      "made_up.toml"));
+  session.run();
+  session.find_certainty();
+  const FaceBudget budget = face_budget(session);
+  ASSERT_EQ(budget.missing.size(), 1u);
+  EXPECT_THAT(budget.missing[0], testing::StartsWith("finite strain: "));
+  EXPECT_THAT(corner_sentences(budget), testing::Contains(testing::HasSubstr("finite strain")));
+}
+
 TEST(FaceBudget, IsWrittenAsATableAndInWords) {
   const CoarseFace& face = coarse_face();
   const TestFolder folder;
