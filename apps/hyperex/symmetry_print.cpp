@@ -85,8 +85,7 @@ void print_excursions(const metrics::Excursions& excursions) {
   if (excursions.lowpass_hz > 0)
     std::cout << fmt::format(
         "excursions and speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter "
-        "and, for "
-        "excursions, the head's pose make\n",
+        "and, for excursions, the head's pose make\n",
         excursions.lowpass_hz);
 }
 

@@ -36,10 +36,7 @@ double greatest(const std::vector<double>& values) {
 }
 
 SmoothTrack smoothed_mm(const motion::Motion& motion, int column, double lowpass_hz) {
-  Points track(static_cast<Eigen::Index>(motion.positions.size()), 3);
-  for (Eigen::Index k = 0; k < track.rows(); ++k)
-    track.row(k) = 1e3 * place(motion, static_cast<size_t>(k), {column});
-  return lowpassed(motion.time_s, track, lowpass_hz);
+  return lowpassed(motion.time_s, 1e3 * track_of(motion, column), lowpass_hz);
 }
 
 /// The smoothed path of a point, mm, with its distance from the first sample and its speed.

@@ -97,14 +97,18 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
   return out;
 }
 
+Points track_of(const motion::Motion& motion, int column) {
+  Points track(Index(motion.positions.size()), 3);
+  for (Index k = 0; k < track.rows(); ++k)
+    track.row(k) = motion.positions[std::size_t(k)].row(column);
+  return track;
+}
+
 motion::Motion lowpassed(motion::Motion motion, double cutoff_hz) {
   if (!(cutoff_hz > 0)) return motion;
-  const auto samples = Index(motion.positions.size());
-  for (Index p = 0; p < Index(motion.names.size()); ++p) {
-    Points track(samples, 3);
-    for (Index k = 0; k < samples; ++k) track.row(k) = motion.positions[std::size_t(k)].row(p);
-    track = lowpassed(motion.time_s, track, cutoff_hz).value;
-    for (Index k = 0; k < samples; ++k) motion.positions[std::size_t(k)].row(p) = track.row(k);
+  for (int p = 0; p < int(motion.names.size()); ++p) {
+    const Points track = lowpassed(motion.time_s, track_of(motion, p), cutoff_hz).value;
+    for (Index k = 0; k < track.rows(); ++k) motion.positions[std::size_t(k)].row(p) = track.row(k);
   }
   return motion;
 }
@@ -123,12 +127,6 @@ double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, do
   const Eigen::VectorXd weight =
       intervals_of(Eigen::Map<const Eigen::VectorXd>(near.data(), count));
   return response.cwiseProduct(weight).norm() / weight(at);
-}
-
-double jitter_left(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz) {
-  const double rest = lowpassed_noise(time_s, 0, cutoff_hz),
-               now = lowpassed_noise(time_s, sample, cutoff_hz);
-  return (rest * rest + now * now) / 2;
 }
 
 double end_margin_s(double cutoff_hz) {

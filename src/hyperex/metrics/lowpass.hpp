@@ -26,6 +26,9 @@ struct SmoothTrack {
 /// accurate.
 SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz);
 
+/// The positions of one point of a motion over time, N x 3, m.
+Points track_of(const motion::Motion& motion, int column);
+
 /// All tracks of a motion; with a cut-off of 0 the motion as it is.
 motion::Motion lowpassed(motion::Motion motion, double cutoff_hz);
 
@@ -35,10 +38,6 @@ motion::Motion lowpassed(motion::Motion motion, double cutoff_hz);
 /// the row of a sample follows from the response to an impulse there. Two periods of the cut-off to
 /// either side are enough: the response falls as exp(-4.4 cutoff_hz |t|).
 double lowpassed_noise(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
-
-/// The share of the variance of white noise that filtering leaves in the difference between a
-/// sample and the first one, taken as independent.
-double jitter_left(const std::vector<double>& time_s, std::size_t sample, double cutoff_hz);
 
 /// Half a period of the cut-off frequency, s; 0 for a cut-off of 0.
 double end_margin_s(double cutoff_hz);

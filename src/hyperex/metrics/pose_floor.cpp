@@ -24,10 +24,7 @@ Sensitivity sensitivity_of(const motion::Motion& steady,
                            double lowpass_hz) {
   Sensitivity out;
   double most = 0;
-  Points track(Eigen::Index(steady.positions.size()), 3);
-  for (Eigen::Index k = 0; k < track.rows(); ++k)
-    track.row(k) = steady.positions[std::size_t(k)].row(column);
-  track = lowpassed(steady.time_s, track, lowpass_hz).value;
+  const Points track = lowpassed(steady.time_s, track_of(steady, column), lowpass_hz).value;
   for (std::size_t k = 1; k < steady.positions.size(); ++k) {
     const Vec3 p = track.row(Eigen::Index(k)).transpose();
     const Vec3 way = p - track.row(0).transpose();

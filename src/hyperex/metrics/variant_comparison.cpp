@@ -16,11 +16,7 @@ constexpr double kNearMouth_m = 0.025;
 /// Positions of a landmark over time; empty if there is none with that name.
 Points track_of(const motion::Motion& m, const std::string& name) {
   const int row = m.index_of(name);
-  if (row < 0) return {};
-  Points track(Eigen::Index(m.positions.size()), 3);
-  for (std::size_t k = 0; k < m.positions.size(); ++k)
-    track.row(Eigen::Index(k)) = m.positions[k].row(row);
-  return track;
+  return row < 0 ? Points() : metrics::track_of(m, row);
 }
 
 double farthest(const Points& track) {

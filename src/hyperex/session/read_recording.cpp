@@ -190,10 +190,9 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   steady.motion.skull_points = options.rigid_points;
   motion::check_reach(steady.motion);
   note_head(steady, in);
-  if (whole)
+  if (whole) {
     in.pose_variance =
         metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);
-  if (whole) {
     settle_rest(scene, steady.motion, in);
     add(in.notes, stillness_warning(steady.motion));
   }

@@ -5,11 +5,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <map>
 #include <optional>
 #include <utility>
 
+#include "hyperex/core/assert.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/within_95.hpp"
@@ -171,22 +173,34 @@ class OtherFaces {
   std::map<ErrorPart, std::vector<std::vector<double>>> others_;
 };
 
+FaceExcursions run(session::FaceSession& session, const std::function<bool()>& cancelled) {
+  const simulate::RunCallbacks callbacks{.progress = {}, .cancelled = cancelled};
+  session.run_base(callbacks);
+  session.run_variants(callbacks);
+  return excursions_of(session);
+}
+
 /// Runs the perturbed faces one after the other. Those that keep the mesh share a session.
 class PerturbedRuns {
  public:
   FaceExcursions run(const PerturbedFace& face, const std::function<bool()>& cancelled) {
     const session::SessionOptions quietly{.certainty = session::Certainty::on_request};
-    const simulate::RunCallbacks callbacks{.progress = {}, .cancelled = cancelled};
-    if (!face.same_mesh) own_.reset();  // two faces at a time are enough
-    if (!face.same_mesh || !own_) own_.emplace(face.scene, quietly);
-    if (!own_->set_scene(face.scene)) own_.emplace(face.scene, quietly);
-    own_->run_base(callbacks);
-    own_->run_variants(callbacks);
-    return excursions_of(*own_);
+    if (!face.same_mesh) {
+      same_mesh_.reset();  // two faces at a time are enough
+      session::FaceSession other(face.scene, quietly);
+      return uncertainty::run(other, cancelled);
+    }
+    if (!same_mesh_) {
+      same_mesh_.emplace(face.scene, quietly);
+    } else {
+      const bool taken = same_mesh_->set_scene(face.scene);
+      HX_ASSERT(taken);
+    }
+    return uncertainty::run(*same_mesh_, cancelled);
   }
 
  private:
-  std::optional<session::FaceSession> own_;
+  std::optional<session::FaceSession> same_mesh_;
 };
 
 }  // namespace
@@ -195,33 +209,35 @@ FaceBudget face_budget(const session::FaceSession& session, const std::function<
                        Laws laws) {
   const scene::Scene& scene = session.scene();
   const FaceExcursions own = excursions_of(session);
-  auto faces = perturbed_faces(scene, session.inputs().landmarks, session.scan());
+  auto faces = perturbed_faces(scene, session.inputs().landmarks);
   if (laws == Laws::own)
     std::erase_if(faces, [](const auto& face) { return face.part == ErrorPart::law; });
   OtherFaces others(places_of(own), own);
-  others.add(ErrorPart::mesh, of_twins(own));
+  const FaceExcursions twins = of_twins(own);
+  others.add(ErrorPart::mesh, twins);
   FaceBudget out;
-  if (std::isnan(value_of(others.places().front(), of_twins(own))))
+  if (std::isnan(value_of(others.places().front(), twins)))
     out.missing.push_back("the mirrored mesh: there is no mirrored twin");
   else
     out.assumed.push_back("the mirrored mesh");
   out.corners = corners_of(own.front());
   out.jitter_known = own.front().jitter_m > 0 || scene.output.jitter_m == 0;
+  const auto miss = [&](const PerturbedFace& face, const std::exception& error) {
+    out.missing.push_back(fmt::format("{}: {}", face.how, error.what()));
+  };
   Progress progress("error budget", long(faces.size()));
   PerturbedRuns runs;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     progress.update(long(i));
     try {
       others.add(faces[i].part, runs.run(faces[i], cancelled));
+      if (std::ranges::find(out.assumed, faces[i].how) == out.assumed.end())
+        out.assumed.push_back(faces[i].how);
     } catch (const NumericalError& error) {
-      out.missing.push_back(fmt::format("{}: {}", faces[i].how, error.what()));
-      continue;
+      miss(faces[i], error);
     } catch (const InputError& error) {  // finite strain does not know every option
-      out.missing.push_back(fmt::format("{}: {}", faces[i].how, error.what()));
-      continue;
+      miss(faces[i], error);
     }
-    if (std::ranges::find(out.assumed, faces[i].how) == out.assumed.end())
-      out.assumed.push_back(faces[i].how);
   }
   for (std::size_t i = 0; i < others.places().size(); ++i) {
     const Place& place = others.places()[i];

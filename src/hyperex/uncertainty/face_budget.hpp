@@ -52,13 +52,13 @@ struct FaceBudget {
   bool jitter_known = false;  ///< else it counts as none, and the intervals are too narrow
 };
 
-/// Errors are independent and small: the variance of a part is the mean square of what the figure
-/// changes by when the face is run again with that part wrong by 1 sigma. That of the mesh is the
-/// variance among meshes: the face's own, its mirror image (the twin) and three other sizes of the
-/// elements. Jitter and the head's pose are those of the recording; a change is wrong by
-/// the share of them that it takes off. `session`: up to date, its certainty known. Runs the face
-/// twelve times, eight where displacements drive. Throws simulate::Cancelled after `cancelled`
-/// returned true.
+/// Runs the face again with one assumption changed at a time, each by one standard deviation. The
+/// variance of a part is the mean square of the changes of the figure in its runs; parts are taken
+/// as independent. The variance of the mesh is that among five meshes: the face's own, its mirror
+/// image (the twin) and three other sizes of the elements. Jitter and the head's pose are those of
+/// the recording. Base and variant share them, so a change has them in proportion to its size.
+/// `session`: up to date, its certainty known. Runs the face twelve times, eight where
+/// displacements drive. Throws simulate::Cancelled after `cancelled` returned true.
 FaceBudget face_budget(const session::FaceSession& session,
                        const std::function<bool()>& cancelled = {}, Laws laws = Laws::both);
 

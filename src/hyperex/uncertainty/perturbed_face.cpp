@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <memory>
 #include <numbers>
 #include <random>
 
@@ -31,8 +30,7 @@ PerturbedFace other_elements(const scene::Scene& scene, double factor) {
           changed(scene, [&](scene::Scene& s) { s.mesh.element_size_m = size_m; }), false};
 }
 
-PerturbedFace moved_landmarks(const scene::Scene& scene, io::Landmarks landmarks,
-                              const io::Scan& scan, int draw) {
+PerturbedFace moved_landmarks(const scene::Scene& scene, io::Landmarks landmarks, int draw) {
   std::mt19937 random(unsigned(draw) + 1);
   std::normal_distribution<double> normal(0, kLandmark_m);
   // A place that has two names is one landmark.
@@ -47,7 +45,6 @@ PerturbedFace moved_landmarks(const scene::Scene& scene, io::Landmarks landmarks
       place = moved;
   }
   scene::Scene moved = scene;
-  moved.given.scan = std::make_shared<const io::Scan>(scan);
   moved.given.landmarks = std::move(landmarks);
   return {ErrorPart::landmarks, fmt::format("landmarks moved by {:g} mm", 1e3 * kLandmark_m),
           std::move(moved), false};
@@ -109,7 +106,7 @@ PerturbedFace other_law(const scene::Scene& scene) {
 }  // namespace
 
 std::vector<PerturbedFace> perturbed_faces(const scene::Scene& scene,
-                                           const io::Landmarks& landmarks, const io::Scan& scan) {
+                                           const io::Landmarks& landmarks) {
   std::vector<PerturbedFace> out;
   out.push_back(stiffer(scene));
   if (scene.drive.by == simulate::DriveBy::muscles)
@@ -117,7 +114,7 @@ std::vector<PerturbedFace> perturbed_faces(const scene::Scene& scene,
   out.push_back(other_law(scene));
   for (const double factor : kElementSizes) out.push_back(other_elements(scene, factor));
   for (int draw = 0; draw < kLandmarkDraws; ++draw)
-    out.push_back(moved_landmarks(scene, landmarks, scan, draw));
+    out.push_back(moved_landmarks(scene, landmarks, draw));
   return out;
 }
 

@@ -25,9 +25,9 @@ struct PerturbedFace {
   bool same_mesh;      ///< scan, landmarks and mesh are those of the face
 };
 
-/// `landmarks`: of the face, completed; `scan`: as it was read. Where displacements drive, muscles
+/// `landmarks`: of the face, completed. Where displacements drive, muscles
 /// are not perturbed. The same for the same scene.
 std::vector<PerturbedFace> perturbed_faces(const scene::Scene& scene,
-                                           const io::Landmarks& landmarks, const io::Scan& scan);
+                                           const io::Landmarks& landmarks);
 
 }  // namespace hyperex::uncertainty

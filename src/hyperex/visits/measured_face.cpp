@@ -180,16 +180,21 @@ void settle_points(const ByFacePoint<std::vector<int>>& columns, const ByFacePoi
   }
 }
 
-void settle_noise(const ByFacePoint<std::vector<int>>& columns, const std::vector<double>& time_s,
-                  std::size_t peak, double cutoff_hz, MeasuredFace& face) {
-  const double rest_m = face.jitter_m * metrics::lowpassed_noise(time_s, 0, cutoff_hz),
-               peak_m = face.jitter_m * metrics::lowpassed_noise(time_s, peak, cutoff_hz);
+/// `rest`, `peak`: what the filter leaves of white noise in these samples (lowpassed_noise).
+void settle_noise(const ByFacePoint<std::vector<int>>& columns, double rest, double peak,
+                  MeasuredFace& face) {
   for (std::size_t i = 0; i < kFacePoints; ++i) {
     // A point is the mean of its columns.
     const double averaged = std::sqrt(double(std::max<std::size_t>(1, columns[i].size())));
-    face.rest_jitter_m[i] = rest_m / averaged;
-    face.peak_jitter_m[i] = peak_m / averaged;
+    face.rest_jitter_m[i] = face.jitter_m * rest / averaged;
+    face.peak_jitter_m[i] = face.jitter_m * peak / averaged;
   }
+}
+
+/// The pose's errors at the peak, relative to rest.
+void settle_pose(const motion::UncertainPose& pose, double rest, double peak, MeasuredFace& face) {
+  face.pose_covariance = pose.filtered((rest * rest + peak * peak) / 2);
+  face.pose_centre = pose.centre;
 }
 
 void settle_curves(const ByFacePoint<std::vector<int>>& columns, const motion::Motion& motion,
@@ -246,12 +251,10 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   face.peak_s = smooth.time_s[peak] - smooth.time_s.front();
   face.half_s = smooth.time_s[first_half_of(movement, peak)] - smooth.time_s.front();
   settle_points(columns, tracks, peak, face);
-  settle_noise(columns, smooth.time_s, peak, cutoff_hz, face);
-  if (!steady.poses.empty()) {
-    face.pose_covariance =
-        steady.poses[peak].filtered(metrics::jitter_left(smooth.time_s, peak, cutoff_hz));
-    face.pose_centre = steady.poses[peak].centre;
-  }
+  const double rest_noise = metrics::lowpassed_noise(smooth.time_s, 0, cutoff_hz),
+               peak_noise = metrics::lowpassed_noise(smooth.time_s, peak, cutoff_hz);
+  settle_noise(columns, rest_noise, peak_noise, face);
+  if (!steady.poses.empty()) settle_pose(steady.poses[peak], rest_noise, peak_noise, face);
   settle_curves(columns, smooth, face);
   face.eye_distance_m = eye_distance(face.rest);
   settle_axes(first, visits, name, face);

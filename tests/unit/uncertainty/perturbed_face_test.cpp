@@ -19,7 +19,7 @@ scene::Scene scene_with_variant(const std::string& drive) {
 
 std::vector<PerturbedFace> faces_of(const scene::Scene& scene) {
   const anatomy::EmbeddedFace face = anatomy::embedded_face();
-  return perturbed_faces(scene, face.landmarks, {});
+  return perturbed_faces(scene, face.landmarks);
 }
 
 int count(const std::vector<PerturbedFace>& faces, metrics::ErrorPart part) {
