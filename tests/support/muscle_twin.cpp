@@ -23,6 +23,13 @@ constexpr int kHeld = 6;
 
 constexpr int kRightCorner = 48, kLeftCorner = 54;
 
+std::string group_of(const std::string& muscle) {
+  const std::string bare = muscle.substr(0, muscle.size() - 2);
+  return muscles::find_muscle(bare)->group + muscle.substr(muscle.size() - 2);
+}
+
+}  // namespace
+
 simulate::TissueValues with_factor(const simulate::TissueValues& values,
                                    const std::vector<double>& young_factor, std::size_t tets) {
   simulate::TissueValues out = values;
@@ -33,7 +40,6 @@ simulate::TissueValues with_factor(const simulate::TissueValues& values,
   return out;
 }
 
-/// The mean over the last frames, so that the noise of a single sample does not decide.
 Corners held_corners(const motion::Motion& tracks) {
   const auto way = [&](int point) {
     const int row = tracks.index_of(face::ibug(point));
@@ -44,13 +50,6 @@ Corners held_corners(const motion::Motion& tracks) {
   };
   return {way(kLeftCorner), way(kRightCorner)};
 }
-
-std::string group_of(const std::string& muscle) {
-  const std::string bare = muscle.substr(0, muscle.size() - 2);
-  return muscles::find_muscle(bare)->group + muscle.substr(muscle.size() - 2);
-}
-
-}  // namespace
 
 TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, double young_factor,
                      const std::vector<TwinChange>& changes, std::vector<std::string> points)

@@ -85,6 +85,13 @@ class TwinTruth {
   std::vector<Tissue> tissues_;  ///< base, then changed
 };
 
+/// The values with Young's modulus multiplied in each of `tets` tetrahedra; an empty factor is 1.
+simulate::TissueValues with_factor(const simulate::TissueValues& values,
+                                   const std::vector<double>& young_factor, std::size_t tets);
+
+/// The mean over the last frames, so that the noise of a single sample does not decide.
+Corners held_corners(const motion::Motion& tracks);
+
 /// The program's results for a recording: forces estimated in `face`, as the program assumes it,
 /// from `points`, and the predictions for each of `changes`.
 TwinAnswer twin_answer(const TwinFace& face, const TwinTruth& truth, const Activations& activations,

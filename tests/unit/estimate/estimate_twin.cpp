@@ -8,9 +8,9 @@
 #include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/estimate/standard_expressions.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/simulate/run/simulator.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "muscles/a_face.hpp"
+#include "support/finite_twin.hpp"
 
 namespace hyperex::estimate::test {
 namespace {
@@ -30,34 +30,6 @@ Points places_of(const std::vector<std::string>& points) {
   Points out(Eigen::Index(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i)
     out.row(Eigen::Index(i)) = programs_mesh().face.landmarks.at(points[i]).transpose();
-  return out;
-}
-
-/// The tracks of the landmarks where the forces that make `motion` in the truth's tissue act in the
-/// changed one, at finite strain.
-simulate::AlignedMotion at_finite_strain(const simulate::AlignedMotion& motion,
-                                         const Patient& patient,
-                                         const muscles::MuscleTable& muscles,
-                                         const hyperex::test::TwinChange& change) {
-  const auto& face = truths_mesh().face;
-  simulate::SimulationOptions options = face.options;
-  options.model.strain = simulate::Strain::finite;
-  options.drive.by = simulate::DriveBy::muscles;
-  options.drive.points = motion.motion.names;
-  options.muscles.own = muscles;
-  options.tissue.uniform[tissue::young] *= patient.young_factor;
-  simulate::Simulator simulator(face.mesh, face.landmarks, motion, options);
-  simulator.run();
-  simulator.hold_load();
-  for (int p = 0; p < tissue::parameter_count; ++p)
-    options.tissue.element[p].assign(change.young_factor.size(), options.tissue.uniform[p]);
-  for (std::size_t t = 0; t < change.young_factor.size(); ++t)
-    options.tissue.element[tissue::young][t] *= change.young_factor[t];
-  options.muscles.gains = change.gains;
-  simulator.set_options(options);
-  simulate::AlignedMotion out;
-  out.motion = simulator.run().performance.landmarks;
-  out.rest = out.motion.positions.front();
   return out;
 }
 
@@ -134,7 +106,12 @@ std::vector<Observation> observations_of(const Patient& patient,
     RecordingErrors errors{
         .jitter_m = std::max(1e-5, patient.noise_m), .head_turn_rad = 2e-3, .head_shift_m = 2e-4};
     auto motion = truth.recorded(activations, 0, 0, patient.finite ? 0 : 1, jaw);
-    if (patient.finite) motion = at_finite_strain(motion, patient, muscles, change);
+    if (patient.finite) {
+      motion.motion = hyperex::test::at_finite_strain(truth_mesh.face, motion, muscles,
+                                                      patient.young_factor, changes)
+                          .back();
+      motion.rest = motion.motion.positions.front();
+    }
     add_noise(motion.motion, patient.noise_m, random);
     out.push_back(observe(motion, points, errors, name));
     const Points places = places_of(points);
