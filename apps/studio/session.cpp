@@ -37,6 +37,7 @@ const std::map<std::string_view, Session::Handler>& Session::handlers() {
       {"rename_variant", &Session::rename_variant},
       {"paint", &Session::paint},
       {"region_shares", &Session::region_shares},
+      {"error_budget", &Session::error_budget},
       {"undo", &Session::undo},
       {"redo", &Session::redo},
       {"move_landmark", &Session::move_landmark},
@@ -86,14 +87,15 @@ OpenFace& Session::require_face() {
 bool Session::has_work() const {
   // A live face needs the processors itself.
   const bool following = live_ && !live_->ended();
-  return face_ && (motion_due_ ||
-                   ((variant_due_ || bands_due_) && !following && face_->session().up_to_date()));
+  const bool later = variant_due_ || bands_due_ || budget_due_;
+  return face_ && (motion_due_ || (later && !following && face_->session().up_to_date()));
 }
 
 void Session::work(const std::function<bool()>& cancelled) {
   if (motion_due_) return run_motion(cancelled);
   if (variant_due_) return expect_variant();
-  find_bands(cancelled);
+  if (bands_due_) return find_bands(cancelled);
+  find_budget(cancelled);
 }
 
 void Session::run_motion(const std::function<bool()>& cancelled) {
@@ -138,6 +140,30 @@ void Session::find_bands(const std::function<bool()>& cancelled) {
     log("warning",
         fmt::format("no error bands: {}", without_folder(error.what(), options_.folder)));
   }
+}
+
+json Session::error_budget(const json&) {
+  require_face();
+  budget_due_ = true;
+  return json::object();
+}
+
+/// Starts anew after a request that did not change the scene.
+void Session::find_budget(const std::function<bool()>& cancelled) {
+  const auto progress = [&](double share) { report_progress("finding the error budget", share); };
+  try {
+    progress(0);
+    face_->session().find_certainty(cancelled);
+    send_budget(uncertainty::face_budget(face_->session(),
+                                         {.progress = progress, .cancelled = cancelled}));
+    budget_due_ = false;
+  } catch (const simulate::Cancelled&) {
+    return;
+  } catch (const std::exception& error) {
+    budget_due_ = false;
+    log("error", fmt::format("no error budget: {}", without_folder(error.what(), options_.folder)));
+  }
+  report_progress("");
 }
 
 }  // namespace hyperex::studio

@@ -16,6 +16,7 @@
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/uncertainty/face_budget.hpp"
 #include "live.hpp"
 #include "open_face.hpp"
 #include "protocol.hpp"
@@ -58,7 +59,8 @@ class Session {
   bool keeps_rescued() const { return keeps_rescued_; }
   /// The page has drawn a frame of the live face. May be called from any thread.
   void drawn(std::int64_t frame);
-  /// Whether there is work to do while no request waits: a motion, a variant's forces or bands.
+  /// Whether there is work to do while no request waits: a motion, a variant's forces, bands or the
+  /// error budget.
   bool has_work() const;
   /// Does the next piece of it. Stops early where `cancelled` returns true; it then starts anew.
   void work(const std::function<bool()>& cancelled);
@@ -77,6 +79,7 @@ class Session {
   nlohmann::json rename_variant(const nlohmann::json& fields);
   nlohmann::json paint(const nlohmann::json& fields);
   nlohmann::json region_shares(const nlohmann::json& fields);
+  nlohmann::json error_budget(const nlohmann::json& fields);
   nlohmann::json undo(const nlohmann::json& fields);
   nlohmann::json redo(const nlohmann::json& fields);
   nlohmann::json move_landmark(const nlohmann::json& fields);
@@ -144,11 +147,13 @@ class Session {
   void run_motion(const std::function<bool()>& cancelled);
   void expect_variant();
   void find_bands(const std::function<bool()>& cancelled);
+  void find_budget(const std::function<bool()>& cancelled);
 
   // Events (session_events.cpp).
   void send_scene();
   void send_shape(std::size_t face, double time_s);
   void send_motion(Stopwatch& watch);
+  void send_budget(const uncertainty::FaceBudget& budget);
   /// An empty stage means done; a negative share means unknown.
   void report_progress(const std::string& stage, double share = -1);
   void log(const char* level, const std::string& text);
@@ -159,7 +164,7 @@ class Session {
   Step now_;  ///< the last commit; face_ may be newer while a slider is dragged
   std::vector<Step> undo_, redo_;
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
-       saved_ = true, keeps_rescued_ = true;
+       budget_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
   std::optional<SurfaceTree> scan_;  ///< of the open face; built when a landmark is first moved
   io::Landmarks moved_;              ///< since the last landmarks_done()

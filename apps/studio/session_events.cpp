@@ -8,6 +8,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/scene_text.hpp"
+#include "hyperex/uncertainty/budget_outputs.hpp"
 #include "session.hpp"
 #include "shape_message.hpp"
 
@@ -55,6 +56,16 @@ void Session::send_motion(Stopwatch& watch) {
   }
   send_(binary_message(head, block), true, "");
   face_sent_ = true;
+}
+
+void Session::send_budget(const uncertainty::FaceBudget& budget) {
+  const json known = uncertainty::budget_json(budget);
+  const json event = {{"event", "budget"},
+                      {"figures", known.at("corners_of_the_mouth")},
+                      {"missing", known.at("missing")},
+                      {"jitter_known", known.at("jitter_known")},
+                      {"text", now_.text}};
+  send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
 }
 
 void Session::send_scene() {

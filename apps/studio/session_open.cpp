@@ -82,6 +82,7 @@ void Session::make_face(const std::string& text, const fs::path& file) {
   }
   // Only here: recomputing it after each change of base would often be wasted.
   variant_due_ = true;
+  budget_due_ = false;
   for (const Note& note : face_->session().warnings()) log("warning", note.text);
 }
 

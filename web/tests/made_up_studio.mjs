@@ -113,6 +113,15 @@ class Session {
       : { table: [], seconds: 0.1, bands: false };
     this.socket.send(binary({ event, replay, activations: null, ...head }, block));
   }
+  /** Of base and of the first variant. */
+  budget() {
+    const figure = (of, side, value_mm, half_width_95_mm, more) => ({ figure: of, ...(side ? { side } : {}), value_mm, half_width_95_mm, largest_part: 'mesh', ...more });
+    const figures = [
+      figure('excursion', 'R', 8, 1), figure('excursion', 'L', 8.04, 1), figure('difference', '', 0.04, 1.5, { decided: false }),
+      ...this.faces.slice(1, 2).flatMap(({ name: variant }) => [figure('change', 'R', -3, 1, { variant, decided: true }), figure('change', 'L', -0.01, 0.2, { variant, decided: false })]),
+    ];
+    this.send({ event: 'budget', figures, missing: [], jitter_known: false, text: JSON.stringify(this.faces) });
+  }
   answer({ id, do: name, ...fields }) {
     this.requests.push({ name, ...fields });
     const answers = {
@@ -127,6 +136,7 @@ class Session {
     };
     this.send({ answer: id, ...answers[name]?.() });
     if (name === 'region_shares') return;
+    if (name === 'error_budget') return this.budget();
     if (name === 'hello' || !fields.live) this.scene();
     if (name === 'hello' || (name === 'set' && !fields.live)) this.moved(name === 'hello' ? 'face' : 'motion');
   }

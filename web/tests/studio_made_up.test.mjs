@@ -107,6 +107,28 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('how certain the answer is: intervals of the face shown, of this scene alone', async () => {
+    const { page, complaints, close } = await openMadeUp(browser, () => []);
+    await askWhatIf(page, 'right side 70');
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('side_R'));
+    await page.locator('.certainty-ask').click();
+    const lines = page.locator('.certainty-lines li');
+    await lines.first().waitFor();
+    assert.deepEqual(await lines.allInnerTexts(), [
+      'Right changes by −3.0 mm (95 %: −4.0 to −2.0; mostly mesh)', 'Left changes by 0.0 mm (95 %: −0.2 to 0.2; mostly mesh), undecided',
+      'The recording shows no jitter: unless its points are exact, these intervals are too narrow.',
+    ]);
+    assert.equal(await page.locator('.certainty-ask').isVisible(), false);
+    await page.locator('[data-mode=single]').dispatchEvent('click');
+    await page.locator('#tabs .tab-name').first().dispatchEvent('click');
+    await page.waitForFunction(() => document.querySelector('.certainty-lines').textContent.includes('Left less right: 0.0 mm (95 %: −1.5 to 1.5; mostly mesh), undecided'));
+    await askWhatIf(page, 'left side 50');
+    await page.waitForFunction(() => document.querySelector('.certainty-lines').hidden);
+    assert.equal(await page.locator('.certainty-ask').isVisible(), true, 'another scene: it can be asked again');
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('a stroke of the brush is painted, sent and shown as a patch', async () => {
     const { page, complaints, session, close } = await openMadeUp(browser, () => []);
     await page.locator('#tab-paint').dispatchEvent('click');

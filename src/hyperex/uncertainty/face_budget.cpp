@@ -205,8 +205,8 @@ class PerturbedRuns {
 
 }  // namespace
 
-FaceBudget face_budget(const session::FaceSession& session, const std::function<bool()>& cancelled,
-                       Laws laws) {
+FaceBudget face_budget(const session::FaceSession& session,
+                       const simulate::RunCallbacks& callbacks, Laws laws) {
   const scene::Scene& scene = session.scene();
   const FaceExcursions own = excursions_of(session);
   auto faces = perturbed_faces(scene, session.inputs().landmarks);
@@ -229,8 +229,9 @@ FaceBudget face_budget(const session::FaceSession& session, const std::function<
   PerturbedRuns runs;
   for (std::size_t i = 0; i < faces.size(); ++i) {
     progress.update(long(i));
+    if (callbacks.progress) callbacks.progress(double(i) / double(faces.size()));
     try {
-      others.add(faces[i].part, runs.run(faces[i], cancelled));
+      others.add(faces[i].part, runs.run(faces[i], callbacks.cancelled));
       if (std::ranges::find(out.assumed, faces[i].how) == out.assumed.end())
         out.assumed.push_back(faces[i].how);
     } catch (const NumericalError& error) {

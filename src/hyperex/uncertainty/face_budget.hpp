@@ -3,7 +3,6 @@
 // How certain the excursions of a run are. The face is run again with whatever may be wrong with
 // it: docs/uncertainty.md.
 #include <cmath>
-#include <functional>
 #include <string>
 #include <vector>
 
@@ -58,8 +57,8 @@ struct FaceBudget {
 /// image (the twin) and three other sizes of the elements. Jitter and the head's pose are those of
 /// the recording. Base and variant share them, so a change has them in proportion to its size.
 /// `session`: up to date, its certainty known. Runs the face twelve times, eight where
-/// displacements drive. Throws simulate::Cancelled after `cancelled` returned true.
+/// displacements drive. Throws simulate::Cancelled after callbacks.cancelled returned true.
 FaceBudget face_budget(const session::FaceSession& session,
-                       const std::function<bool()>& cancelled = {}, Laws laws = Laws::both);
+                       const simulate::RunCallbacks& callbacks = {}, Laws laws = Laws::both);
 
 }  // namespace hyperex::uncertainty

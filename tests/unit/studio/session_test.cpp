@@ -28,6 +28,41 @@ TEST(SessionHandlers, HandleEachRequestOfTheProtocol) {
   EXPECT_THAT(handled, testing::UnorderedElementsAreArray(described));
 }
 
+/// Figures of the event budget.
+const json& figures_of(const Message& budget) {
+  return budget.head.at("figures");
+}
+
+TEST_F(StudioSession, StatesTheErrorBudgetWhenAskedAndOnlyOfThatScene) {
+  open();
+  set({{"mesh.element_size_mm", 7}}, 0);
+  ask("add_variant", {{"name", "weak"}, {"like", 0}});
+  set({{"muscles.gain", {{"side_R", 0.5}}}}, 1);
+  work();
+  ask("error_budget");
+  ASSERT_TRUE(session_->has_work());
+  set({{"muscles.gain", {{"side_R", 0.6}}}}, 1);
+  work();
+  EXPECT_EQ(event("budget"), nullptr) << "the scene was changed before";
+
+  ask("error_budget");
+  session_->work([] { return true; });
+  EXPECT_EQ(event("budget"), nullptr);
+  EXPECT_TRUE(session_->has_work()) << "another request waits";
+  work();
+  const Message* budget = event("budget");
+  ASSERT_NE(budget, nullptr);
+  ASSERT_EQ(figures_of(*budget).size(), 5);  // two sides, their difference, two changes
+  const json& change = figures_of(*budget)[3];
+  EXPECT_EQ(change["variant"], "weak");
+  EXPECT_EQ(change["side"], "R");
+  EXPECT_LT(change["value_mm"], -1);
+  EXPECT_GT(change["half_width_95_mm"], 0.2);
+  EXPECT_EQ(change["decided"], true);
+  EXPECT_EQ(event("progress")->head["stage"], "") << "done";
+  EXPECT_FALSE(session_->has_work());
+}
+
 TEST_F(StudioSession, ARequestWithoutAHandlerIsAnError) {
   session_->answer({7, "dance", json::object()});
   ASSERT_FALSE(messages_.empty());

@@ -14,12 +14,13 @@ import { wireKeys, type Key } from '../replay/keys';
 import type { Manifest } from '../replay/manifest';
 import { transportKeys, wireTransport } from '../replay/transport';
 import { Answer } from './answer';
+import { Certainty } from './certainty';
 import { Connection, takeToken, type LineState } from './connection';
 import { Drawer } from './drawer';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
 import { LandmarksPanel } from './landmarks_panel';
-import { isRecord, type Activations, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow, type StifferTissue } from './messages';
+import { isRecord, type Activations, type BudgetFigure, type LandmarkInfo, type MuscleInfo, type Places, type Preset, type Region, type SceneKey, type SceneNow, type StifferTissue } from './messages';
 import { LivePanel } from './live';
 import { MessagesPanel } from './messages_panel';
 import { MusclesPanel } from './muscles_panel';
@@ -49,6 +50,7 @@ class Studio {
   private readonly scene = new ScenePanel(this.state, this.edits);
   private readonly answer = new Answer(this.state, at('answer-body'), () => this.panels.show('figures'));
   private readonly figures = new FiguresPanel(this.state, at('figures-body'), this.answer);
+  private readonly certainty = new Certainty(this.state, this.connection, at('certainty'), (text) => this.problem(text));
   private readonly drawer = new Drawer();
   private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain));
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'), () => this.drawer.openFiles());
@@ -149,8 +151,15 @@ class Studio {
       document.documentElement.dataset.shapeS = seconds.toFixed(3);
       document.documentElement.dataset.shapes = String(Number(document.documentElement.dataset.shapes ?? 0) + 1);
     });
+    connection.on('budget', ({ figures, missing, jitter_known, text }) => {
+      this.certainty.take({ figures: figures as BudgetFigure[], missing: missing as string[], jitterKnown: jitter_known, text });
+      document.documentElement.dataset.budget = 'true';
+    });
     connection.on('progress', ({ stage, share }) => this.progress.show(stage, share));
-    connection.on('log', ({ level, text }) => this.messages.add(level, text));
+    connection.on('log', ({ level, text }) => {
+      this.messages.add(level, text);
+      if (level === 'error' && this.certainty.waiting) this.certainty.take(null);
+    });
   }
 
   private showRemarks(summary: Record<string, unknown>): void {

@@ -54,6 +54,20 @@ export interface Places {
   open: boolean;
 }
 
+/** A row of the event budget. */
+export interface BudgetFigure {
+  /** Absent for base. */
+  variant?: string;
+  figure: 'excursion' | 'difference' | 'change';
+  /** Absent for a difference, which is left less right. */
+  side?: 'R' | 'L';
+  value_mm: number | null;
+  half_width_95_mm: number;
+  /** Of a difference or a change: whether its interval excludes 0. */
+  decided?: boolean;
+  largest_part: string;
+}
+
 export type Values = Record<string, unknown>;
 
 export interface SceneFace {

@@ -119,6 +119,13 @@ export interface RegionSharesRequest {
 }
 export type RegionSharesAnswer = Record<string, never>;
 
+/**
+ * Asks how certain the excursions of the corners of the mouth are, with all errors: the face is run some
+ * twelve times more. Event budget follows, unless the scene is changed before.
+ */
+export type ErrorBudgetRequest = Record<string, never>;
+export type ErrorBudgetAnswer = Record<string, never>;
+
 /** Goes back by one change. */
 export type UndoRequest = Record<string, never>;
 export type UndoAnswer = Record<string, never>;
@@ -291,6 +298,21 @@ export interface MotionEvent {
   bands: boolean;
 }
 
+/** How certain the excursions of the corners of the mouth are (docs/uncertainty.md). */
+export interface BudgetEvent {
+  /**
+   * of base, then of each variant: variant (absent for base), figure (excursion, difference or change),
+   * side, value_mm, half_width_95_mm, decided, largest_part
+   */
+  figures: unknown;
+  /** a sentence for each error that could not be simulated */
+  missing: unknown;
+  /** whether the recording shows its jitter */
+  jitter_known: boolean;
+  /** the scene that it is of */
+  text: string;
+}
+
 /** State of the live face, some times per second. */
 export interface LiveEvent {
   /** for a face; its neutral shape; the face; the camera has ended */
@@ -375,6 +397,7 @@ export interface Requests {
   rename_variant: { fields: RenameVariantRequest; answer: RenameVariantAnswer };
   paint: { fields: PaintRequest; answer: PaintAnswer };
   region_shares: { fields: RegionSharesRequest; answer: RegionSharesAnswer };
+  error_budget: { fields: ErrorBudgetRequest; answer: ErrorBudgetAnswer };
   undo: { fields: UndoRequest; answer: UndoAnswer };
   redo: { fields: RedoRequest; answer: RedoAnswer };
   move_landmark: { fields: MoveLandmarkRequest; answer: MoveLandmarkAnswer };
@@ -397,6 +420,7 @@ export interface Events {
   scene: SceneEvent;
   face: FaceEvent;
   motion: MotionEvent;
+  budget: BudgetEvent;
   live: LiveEvent;
   live_shape: LiveShapeEvent;
   take: TakeEvent;

@@ -72,6 +72,16 @@ const en = {
   apartNone: 'no difference',
   apartDecided: (limit: string) => `apart: decided, above ${limit}`,
   apartUndecided: (limit: string) => `apart: undecided, below ${limit}`,
+  certaintyAsk: 'How certain is this?',
+  certaintyHint: 'Runs the face some twelve times more, each time with one thing wrong by as much as it may be: mesh, landmarks, muscles, stiffness, law. Takes about half a minute; any change of the face ends it.',
+  certaintyWaiting: 'Running the face again …',
+  certaintyTitle: 'With all errors, 95 %',
+  certaintyOf: (side: string, change: boolean) => (change ? `${side} changes by` : `${side}:`),
+  certaintyApart: 'Left less right:',
+  certaintyInterval: (value: string, low: string, high: string, part: string) => `${value} mm (95 %: ${low} to ${high}${part ? `; mostly ${part}` : ''})`,
+  certaintyUndecided: 'undecided',
+  certaintyMissing: (count: number) => (count === 1 ? 'One error could not be simulated: these intervals are too narrow.' : `${count} errors could not be simulated: these intervals are too narrow.`),
+  certaintyNoJitter: 'The recording shows no jitter: unless its points are exact, these intervals are too narrow.',
   doubtCount: (count: number) => (count === 1 ? '1 doubt about these figures' : `${count} doubts about these figures`),
   /** Faces are named after their changes: in letters a to z, digits, and a few signs. */
   briefNames: {

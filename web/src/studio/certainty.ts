@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How certain the answer is with all errors: asked for, as it takes a while, and shown as intervals.
+import { button, element, unbroken } from '../page/dom';
+import type { Connection } from './connection';
+import type { BudgetFigure } from './messages';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+interface Budget {
+  figures: BudgetFigure[];
+  missing: string[];
+  jitterKnown: boolean;
+  /** The scene that it is of. */
+  text: string;
+}
+
+/** "−5.6"; without the sign of a zero. */
+const signed = (value: number): string => (Math.round(10 * value) / 10 + 0).toFixed(1).replace('-', '−');
+
+export class Certainty {
+  private budget: Budget | null = null;
+  /** The scene of which it was asked for. */
+  private askedText: string | null = null;
+  private readonly ask: HTMLButtonElement;
+  private readonly lines = element('ul', '', 'certainty-lines');
+
+  constructor(private readonly state: StudioState, private readonly connection: Connection, into: HTMLElement, private readonly problem: (text: string) => void) {
+    this.ask = button(words.certaintyAsk, 'certainty-ask quiet', () => void this.request());
+    this.ask.title = words.certaintyHint;
+    this.lines.setAttribute('aria-label', words.certaintyTitle);
+    into.append(this.ask, this.lines);
+    state.sceneChanged.add(() => this.show());
+    state.shown.onChange(() => this.show());
+    this.show();
+  }
+
+  /** The event budget; null: the work has ended without one. */
+  take(budget: Budget | null): void {
+    this.budget = budget;
+    this.askedText = null;
+    this.show();
+  }
+
+  /** Whether the server is at work on it. */
+  get waiting(): boolean {
+    return this.askedText !== null && this.askedText === this.state.scene?.text;
+  }
+
+  private async request(): Promise<void> {
+    this.askedText = this.state.scene?.text ?? null;
+    this.show();
+    try {
+      await this.connection.request('error_budget', {});
+    } catch (error) {
+      this.problem(String(error));
+      this.take(null);
+    }
+  }
+
+  private show(): void {
+    const { state, budget } = this;
+    const known = budget !== null && budget.text === state.scene?.text;
+    this.ask.hidden = known || !state.scene;
+    this.ask.disabled = this.waiting;
+    this.ask.textContent = this.waiting ? words.certaintyWaiting : words.certaintyAsk;
+    this.lines.hidden = !known;
+    this.lines.replaceChildren(...(known ? this.sentences(budget).map((text) => {
+      const line = element('li');
+      line.append(...unbroken(text));
+      return line;
+    }) : []));
+  }
+
+  private sentences({ figures, missing, jitterKnown }: Budget): string[] {
+    const { edited } = this.state;
+    const variant = edited === 0 ? undefined : this.state.nameOf(edited);
+    const own = figures.filter((figure) => figure.variant === variant && figure.value_mm !== null);
+    if (own.length === 0) return [words.noCorners];
+    return [
+      ...own.map(sentence),
+      ...(missing.length > 0 ? [words.certaintyMissing(missing.length)] : []),
+      ...(jitterKnown ? [] : [words.certaintyNoJitter]),
+    ];
+  }
+}
+
+function sentence({ figure, side, value_mm, half_width_95_mm, decided, largest_part }: BudgetFigure): string {
+  const value = value_mm ?? 0;
+  const what = figure === 'difference' ? words.certaintyApart : words.certaintyOf(words.sideNames[side ?? 'R'], figure === 'change');
+  const interval = words.certaintyInterval(signed(value), signed(value - half_width_95_mm), signed(value + half_width_95_mm), largest_part);
+  return `${what} ${interval}${decided === false ? `, ${words.certaintyUndecided}` : ''}`;
+}
