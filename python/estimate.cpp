@@ -19,22 +19,37 @@ Pair pair_of(const Range& range) {
   return {range.low, range.high};
 }
 
+/// Recording, landmark, kilograms.
+using Weights = std::vector<std::tuple<std::filesystem::path, std::string, double>>;
+
 Estimate estimated(const std::filesystem::path& scene, const Paths& recordings,
-                   const Names& stiffness, const Names& gains) {
-  return estimate::estimate(
-      scene::read_scene(scene),
-      {.recordings = recordings, .stiffness = stiffness, .gains = gains, .assumptions = {}});
+                   const Names& stiffness, const Names& gains, const Paths& lying,
+                   const Weights& weights) {
+  Request request{.recordings = recordings,
+                  .stiffness = stiffness,
+                  .gains = gains,
+                  .lying = lying,
+                  .weights = {},
+                  .assumptions = {}};
+  for (const auto& [recording, point, mass_kg] : weights)
+    request.weights.push_back({recording, point, mass_kg});
+  return estimate::estimate(scene::read_scene(scene), request);
+}
+
+const char* kind_of(Finding::Kind kind) {
+  if (kind == Finding::Kind::young) return "young_kpa";
+  return kind == Finding::Kind::ratio ? "ratio" : "gain";
 }
 
 }  // namespace
 
 void bind_estimate(py::module_& m) {
-  py::class_<Finding>(m, "Finding", "A ratio of stiffness or the gain of a muscle.")
+  py::class_<Finding>(m, "Finding",
+                      "A ratio of stiffness, the gain of a muscle, or the tissue's stiffness.")
       .def_readonly("name", &Finding::name)
       .def_property_readonly(
-          "kind",
-          [](const Finding& self) { return self.kind == Finding::Kind::ratio ? "ratio" : "gain"; },
-          "\"ratio\" or \"gain\".")
+          "kind", [](const Finding& self) { return kind_of(self.kind); },
+          "\"ratio\", \"gain\", or \"young_kpa\".")
       .def_readonly("value", &Finding::value)
       .def_property_readonly(
           "interval", [](const Finding& self) { return pair_of(self.interval); },
@@ -62,8 +77,9 @@ void bind_estimate(py::module_& m) {
           "json", [](const Estimate& self) { return as_json(self); },
           "Everything, as hyperex estimate --out writes it.");
   m.def("estimate", &estimated, "scene"_a, py::kw_only(), "recordings"_a = Paths(),
-        "stiffness"_a = Names(), "gains"_a = Names(), Unlocked(),
-        "As `hyperex estimate SCENE` (docs/uncertainty.md).");
+        "stiffness"_a = Names(), "gains"_a = Names(), "lying"_a = Paths(), "weights"_a = Weights(),
+        Unlocked(),
+        "As `hyperex estimate SCENE` (docs/uncertainty.md). `weights`: recording, landmark, kg.");
 }
 
 }  // namespace hyperex::python

@@ -9,9 +9,11 @@
 #include <memory>
 
 #include "commands.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/estimate/words.hpp"
+#include "hyperex/io/number.hpp"
 #include "hyperex/run/earlier_run.hpp"
 #include "hyperex/scene/scene.hpp"
 
@@ -22,16 +24,33 @@ namespace fs = std::filesystem;
 struct EstimateOptions {
   fs::path scene, out;
   std::vector<std::string> overrides;
+  std::vector<std::string> weights;
   estimate::Request request;
 };
 
+/// "FILE:POINT:GRAMS"; the file's name may contain colons.
+estimate::HungWeight weight_of(const std::string& text) {
+  const std::size_t last = text.rfind(':');
+  const std::size_t middle =
+      last == std::string::npos || last == 0 ? last : text.rfind(':', last - 1);
+  const auto grams =
+      middle == std::string::npos ? std::nullopt : io::parse_number(text.substr(last + 1));
+  if (!grams || middle == last)
+    throw InputError(InputProblem{{}, 0, "--weight", text, "FILE:POINT:GRAMS"});
+  return {text.substr(0, middle), text.substr(middle + 1, last - middle - 1), 1e-3 * *grams};
+}
+
 void run(const EstimateOptions& options) {
+  estimate::Request request = options.request;
+  for (const std::string& text : options.weights) request.weights.push_back(weight_of(text));
   const scene::Scene scene = scene::read_scene(options.scene, options.overrides);
   std::vector<fs::path> inputs = run::files_named_by(scene);
-  inputs.insert(inputs.end(), options.request.recordings.begin(), options.request.recordings.end());
+  for (const auto& files : {request.recordings, request.lying})
+    inputs.insert(inputs.end(), files.begin(), files.end());
+  for (const estimate::HungWeight& weight : request.weights) inputs.push_back(weight.recording);
   check_outputs({options.out}, inputs);
   check_output_kinds({{options.out, {".json"}, "{", {"\"findings\"", "\"model_error_scale\""}}});
-  const estimate::Estimate found = estimate::estimate(scene, options.request);
+  const estimate::Estimate found = estimate::estimate(scene, request);
   for (const std::string& remark : found.remarks) spdlog::warn("{}", remark);
   for (const estimate::Observation& seen : found.recordings)
     std::cout << fmt::format("{}: peak at {:.2f} s\n", seen.name, seen.time_s);
@@ -63,6 +82,13 @@ void add_estimate(CLI::App& program) {
   command->add_option("--gain", options->request.gains,
                       "A muscle, or a branch of the facial nerve on one side, whose strength to "
                       "find: zyg_major_R, zygomatic_R; can be repeated");
+  command->add_option("--lying", options->request.lying,
+                      "A recording of the relaxed face, upright at first and lying face up later, "
+                      "or its landmarks while lying (.json): gravity is a known load, which tells "
+                      "how stiff the tissue is; can be repeated");
+  command->add_option("--weight", options->weights,
+                      "A recording of the relaxed face, without a weight at first and with one "
+                      "later that hangs from a landmark: FILE:POINT:GRAMS; can be repeated");
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated");
   command->add_option("--out", options->out, "Write everything here (.json)");
   command->footer(

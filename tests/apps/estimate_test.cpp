@@ -2,10 +2,13 @@
 // `hyperex estimate` as a user calls it.
 #include <gmock/gmock.h>
 
+#include <Eigen/Geometry>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "apps/malformed.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/io/landmarks.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
 
@@ -48,6 +51,32 @@ TEST_F(EstimateProgram, AnswersOrSaysWhatWouldHelp) {
   EXPECT_EQ(json["points"].size(), 5u);
 }
 
+TEST_F(EstimateProgram, FindsTheStiffnessOfTheTissueUnderAKnownLoad) {
+  // Lying face up: mouth and chin sink by 1.5 mm, and the head has turned.
+  io::Landmarks lying = good_landmarks();
+  const Eigen::AngleAxisd turn(-1.2, Vec3::UnitX());
+  for (auto& [name, place] : lying) {
+    const auto number = face::ibug_number(name);
+    if (number && (*number >= 48 || *number <= 16)) place.z() -= 0.0015;
+    place = turn * place;
+  }
+  io::write_landmarks(in("lying.json"), lying, io::LengthUnit::millimetre);
+  Outcome outcome = call("estimate s.toml --lying lying.json --out o.json");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("soft tissue: "));
+  EXPECT_THAT(outcome.out, HasSubstr(" kPa"));
+  const auto json = nlohmann::json::parse(read_file(in("o.json")));
+  const auto& young = json["findings"][0];
+  EXPECT_EQ(young["kind"], "young_kpa");
+  EXPECT_LT(young["value"], json["scenes_young_kpa"]) << "softer than the scene has it";
+  EXPECT_EQ(json["recordings"][1]["name"], "lying.json");
+
+  motion::write_motion_csv(in("again.csv"), motion::embedded_mouth_opening(good_landmarks()));
+  outcome = call("estimate s.toml --weight again.csv:cheilion_R:20");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, HasSubstr("soft tissue: "));
+}
+
 TEST_F(EstimateProgram, RefusesWhatCannotBeAsked) {
   const auto refused = [this](const std::string& arguments, const std::string& why) {
     const Outcome outcome = call("estimate s.toml " + arguments + " --out o.json");
@@ -57,6 +86,13 @@ TEST_F(EstimateProgram, RefusesWhatCannotBeAsked) {
   };
   refused("", "cheek_L:cheek_R");
   refused("--stiffness all", "Motion alone does not determine");
+  refused("--stiffness all", "A known load");
+  refused("--weight again.csv", "FILE:POINT:GRAMS");
+  refused("--weight again.csv:cheilion_R:much", "FILE:POINT:GRAMS");
+  motion::write_motion_csv(in("again.csv"), motion::embedded_mouth_opening(good_landmarks()));
+  refused("--weight again.csv:cheilion_R:9000", "at most 500");
+  refused("--weight again.csv:nowhere:20", "a landmark of the scan");
+  refused("--lying none.json", "none.json");
   refused("--stiffness chek_L", "did you mean cheek_L?");
   refused("--stiffness cheek_L:cheek_L", "two different parts");
   refused("--stiffness tissue.region[0]", "which has 0");

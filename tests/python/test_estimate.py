@@ -30,6 +30,19 @@ class Estimate(unittest.TestCase):
         self.assertIn("cannot tell", estimate.summary[1])
         self.assertEqual(json.loads(estimate.json())["points"], estimate.points)
 
+    def test_a_known_load_gives_the_stiffness_of_the_tissue(self):
+        lying = pathlib.Path(self.folder.name) / "lying.json"
+        face = hyperex.embedded_face()
+        points = {name: [1e3 * x for x in place] for name, place in face.landmarks.items()}
+        for number in range(48, 68):
+            points[f"ibug68_{number}"][2] -= 1.5
+        lying.write_text(json.dumps({"units": "mm", "points": points}))
+        estimate = hyperex.estimate(self.scene, lying=[lying], weights=[(lying, "cheilion_R", 0.02)])
+        young, = estimate.findings
+        self.assertEqual((young.kind, young.name), ("young_kpa", "soft tissue"))
+        self.assertLess(young.interval[0], young.value)
+        self.assertIn("kPa", estimate.summary[0])
+
     def test_a_mistake_is_one_sentence(self):
         with self.assertRaisesRegex(ValueError, "Motion alone"):
             hyperex.estimate(self.scene, stiffness=["all"])

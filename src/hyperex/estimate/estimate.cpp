@@ -13,17 +13,22 @@
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/estimate/ratio_parts.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/io/landmarks.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 
 namespace hyperex::estimate {
 namespace {
 
+namespace fs = std::filesystem;
+
 /// Where a recording shows no jitter, and the least that is assumed of the head's pose.
 constexpr double kAssumedJitter_m = 2e-4, kLeastShift_m = 1e-4, kLeastTurn_rad = 1e-3;
 constexpr double kDegree = std::numbers::pi / 180;
 /// A further recording is proposed where it narrows an interval by this much.
 constexpr double kWorthwhile = 0.9;
+constexpr double kHeaviest_kg = 0.5;
+constexpr const char* kSoftTissue = "soft tissue";
 
 /// The outline of the face, which trackers of pictures let slide along the skin; its chin does not.
 bool slides(const std::string& point) {
@@ -81,37 +86,107 @@ std::filesystem::path& recording_of(scene::MotionOptions& motion) {
   return motion.source.file;
 }
 
+/// Reads further recordings of a session's face. Its scan and landmarks are known.
+class FurtherRecordings {
+ public:
+  explicit FurtherRecordings(const session::FaceSession& session) : scene_(session.scene()) {
+    scene_.given.scan = std::make_shared<const io::Scan>(session.scan());
+    scene_.given.landmarks = session.inputs().landmarks;
+    scene_.motion.source.embedded = false;
+  }
+  session::Inputs read(const fs::path& file) const {
+    scene::Scene other = scene_;
+    if (file.extension() == ".json")
+      other.given.motion = std::make_shared<const motion::Motion>(motion_to(file));
+    else
+      recording_of(other.motion) = file;
+    return session::read_inputs(other);
+  }
+
+ private:
+  /// From the scan's landmarks to those of a file.
+  motion::Motion motion_to(const fs::path& file) const {
+    motion::Motion out;
+    out.time_s = {0, 1};
+    std::vector<Vec3> from, to;
+    for (const auto& [name, place] : io::read_landmarks(file)) {
+      const auto known = scene_.given.landmarks.find(name);
+      if (known == scene_.given.landmarks.end()) continue;
+      out.names.push_back(name);
+      from.push_back(known->second);
+      to.push_back(place);
+    }
+    out.positions = {points_of(from), points_of(to)};
+    return out;
+  }
+  static Points points_of(const std::vector<Vec3>& places) {
+    Points out(Eigen::Index(places.size()), 3);
+    for (std::size_t i = 0; i < places.size(); ++i)
+      out.row(Eigen::Index(i)) = places[i].transpose();
+    return out;
+  }
+
+  scene::Scene scene_;
+};
+
+KnownLoad load_of(const session::Inputs& in, const HungWeight& weight) {
+  const auto refuse = [&](const std::string& key, const std::string& value,
+                          const std::string& expected) {
+    throw InputError(InputProblem{{}, 0, key, value, expected});
+  };
+  if (!(weight.mass_kg > 0 && weight.mass_kg <= kHeaviest_kg))
+    refuse("weight", fmt::format("{:g}", 1e3 * weight.mass_kg), "grams, above 0 and at most 500");
+  const auto known = in.landmarks.find(weight.point);
+  if (known == in.landmarks.end())
+    refuse("weight", weight.point, "a landmark of the scan that the weight hangs from");
+  return hung_weight(in.landmarks, known->second, weight.mass_kg);
+}
+
 std::string name_of(scene::MotionOptions motion) {
   const auto& file = recording_of(motion);
   if (!file.empty()) return file.filename().string();
   return "the embedded recording";
 }
 
-Range natural(const Range& range, Finding::Kind kind) {
-  if (kind == Finding::Kind::gain) return {std::max(0.0, range.low), range.high};
-  return {std::exp(range.low), std::exp(range.high)};
+/// From unknowns to what is printed.
+struct Scale {
+  Finding::Kind kind;
+  double unit;  ///< Young's modulus of the scene in kPa; else 1
+
+  double value(double unknown) const {
+    return kind == Finding::Kind::gain ? std::max(0.0, unknown) : unit * std::exp(unknown);
+  }
+  Range range(const Range& of) const { return {value(of.low), value(of.high)}; }
+  bool narrow(const Range& of) const {
+    return kind == Finding::Kind::gain ? of.high - of.low <= kWidestGain
+                                       : of.high / of.low <= kWidestRatio;
+  }
+};
+
+Scale scale_of(const Unknowns& u, Eigen::Index which, double scenes_young_kpa) {
+  if (which < u.ratios) return {Finding::Kind::ratio, 1};
+  if (u.is_gain(which)) return {Finding::Kind::gain, 1};
+  return {Finding::Kind::young, scenes_young_kpa};
 }
 
 Finding finding_of(Posterior& posterior, const Mode& mode, const std::vector<Proposal>& further,
-                   Eigen::Index which, const std::string& name) {
+                   Eigen::Index which, const std::string& name, const Scale& scale) {
   const Unknowns& u = posterior.unknowns();
   Finding out;
-  out.kind = which < u.ratios ? Finding::Kind::ratio : Finding::Kind::gain;
+  out.kind = scale.kind;
   out.name = name;
   const AskedInterval found = interval_of(posterior, mode, which);
-  out.value = out.kind == Finding::Kind::ratio ? std::exp(found.value) : found.value;
-  out.interval = natural(found.profile, out.kind);
-  out.laplace = natural(found.laplace, out.kind);
-  out.determined = out.kind == Finding::Kind::ratio
-                       ? out.interval.high / out.interval.low <= kWidestRatio
-                       : out.interval.high - out.interval.low <= kWidestGain;
+  out.value = scale.value(found.value);
+  out.interval = scale.range(found.profile);
+  out.laplace = scale.range(found.laplace);
+  out.determined = scale.narrow(out.interval);
   out.parts = error_parts(mode, u, which);
   const auto best = std::ranges::min_element(
       further, {}, [which](const Proposal& one) { return one.sigma[which]; });
   if (best->sigma[which] < kWorthwhile * found.sigma) {
     out.further = best->expression;
     const double reach = kWithin95 * best->sigma[which];
-    out.further_interval = natural({found.value - reach, found.value + reach}, out.kind);
+    out.further_interval = scale.range({found.value - reach, found.value + reach});
   }
   return out;
 }
@@ -143,11 +218,14 @@ void answer(FaceModel face, const Question& question, const Assumptions& assumpt
   std::vector<std::string> names;
   for (const StiffnessRatio& ratio : question.ratios) names.push_back(ratio.name);
   names.insert(names.end(), question.gains.begin(), question.gains.end());
+  if (!question.loads.empty()) names.emplace_back(kSoftTissue);
   out.alike = alike_pairs(posterior, mode, names);
   Progress progress("checking the intervals", long(names.size()));
   const std::vector<Proposal> further = proposals(face, posterior, mode, assumptions);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    out.findings.push_back(finding_of(posterior, mode, further, Eigen::Index(i), names[i]));
+    const auto which = Eigen::Index(i);
+    out.findings.push_back(finding_of(posterior, mode, further, which, names[i],
+                                      scale_of(posterior.unknowns(), which, out.scenes_young_kpa)));
     progress.update(long(i) + 1);
   }
 }
@@ -155,32 +233,35 @@ void answer(FaceModel face, const Question& question, const Assumptions& assumpt
 }  // namespace
 
 Estimate estimate(const scene::Scene& scene, const Request& request) {
-  if (request.stiffness.empty() && request.gains.empty())
+  if (request.stiffness.empty() && request.gains.empty() && request.lying.empty() &&
+      request.weights.empty())
     throw InputError("estimate",
-                     "expected what to find: parts of the tissue (cheek_L:cheek_R) or muscles "
-                     "(zygomatic_R)");
+                     "expected what to find: parts of the tissue (cheek_L:cheek_R), muscles "
+                     "(zygomatic_R), or a known load");
   session::FaceSession session{scene::Scene(scene), {}};
   Question question;
   for (const std::string& asked : request.stiffness)
     question.ratios.push_back(ratio_of(session, asked));
   question.gains = request.gains;
+  const FurtherRecordings reader(session);
+  std::vector<fs::path> files = request.recordings;
+  files.insert(files.end(), request.lying.begin(), request.lying.end());
+  for (const HungWeight& weight : request.weights) files.push_back(weight.recording);
   std::vector<session::Inputs> others;
-  scene::Scene other = session.scene();
-  // Scan and landmarks are known; only the recordings are read.
-  other.given.scan = std::make_shared<const io::Scan>(session.scan());
-  other.given.landmarks = session.inputs().landmarks;
-  for (const auto& file : request.recordings) {
-    recording_of(other.motion) = file;
-    other.motion.source.embedded = false;
-    others.push_back(session::read_inputs(other));
-  }
+  for (const fs::path& file : files) others.push_back(reader.read(file));
   Estimate out;
   const session::Inputs& in = session.inputs();
+  for (std::size_t i = 0; i < request.lying.size(); ++i)
+    question.loads.push_back(lying_down(in.landmarks));
+  for (const HungWeight& weight : request.weights) question.loads.push_back(load_of(in, weight));
+  out.scenes_young_kpa = 1e-3 * session.options(0).tissue.uniform[tissue::young];
   out.points = observed_points(session.scene(), in, others);
   out.recordings.push_back(observed(in, out.points, name_of(scene.motion), out.remarks));
-  for (std::size_t i = 0; i < others.size(); ++i)
+  for (std::size_t i = 0; i < others.size(); ++i) {
     out.recordings.push_back(
-        observed(others[i], out.points, request.recordings[i].filename().string(), out.remarks));
+        observed(others[i], out.points, files[i].filename().string(), out.remarks));
+    out.recordings.back().load = std::max(-1, int(i) - int(request.recordings.size()));
+  }
   const auto face = [&] {
     const Progress progress("finding how the points follow the muscles", 0);
     return face_model(session.mesh(), in.landmarks, session.options(0), out.points,

@@ -11,6 +11,14 @@
 
 namespace hyperex::estimate {
 
+/// A recording whose first sample is of the relaxed upright face, and a later one with a weight
+/// that hangs from its skin.
+struct HungWeight {
+  std::filesystem::path recording;
+  std::string point;  ///< a landmark, or a point of the recording
+  double mass_kg = 0;
+};
+
 /// What the user asks.
 struct Request {
   /// Recordings of the same face beside the scene's, each of another expression, of the same
@@ -21,18 +29,23 @@ struct Request {
   /// part.
   std::vector<std::string> stiffness;
   std::vector<std::string> gains;  ///< "zygomatic_R", as muscles.gain
+  /// Known loads on the relaxed face; then the stiffness of its tissue is found too. Lying: the
+  /// first sample is upright, a later one lies face up. A file of landmarks (.json) is of the
+  /// lying face alone, and the scan's landmarks are upright.
+  std::vector<std::filesystem::path> lying;
+  std::vector<HungWeight> weights;
   Assumptions assumptions;
 };
 
 /// One answer.
 struct Finding {
-  enum class Kind { ratio, gain } kind = Kind::ratio;
+  enum class Kind { ratio, gain, young } kind = Kind::ratio;
   std::string name;
-  double value = 1;
-  Range interval;  ///< 95 %, by profile likelihood
-  Range laplace;   ///< 95 %, from the curvature
-  /// Whether the interval is narrow enough to be an answer: a ratio known to a factor of
-  /// kWidestRatio from end to end, a gain to kWidestGain.
+  double value = 1;  ///< of Young's modulus: kPa, as all in this struct
+  Range interval;    ///< 95 %, by profile likelihood
+  Range laplace;     ///< 95 %, from the curvature
+  /// Whether the interval is narrow enough to be an answer: a ratio or Young's modulus known
+  /// to a factor of kWidestRatio from end to end, a gain to kWidestGain.
   bool determined = false;
   std::vector<ErrorPart> parts;  ///< largest first
   /// The standard expression whose recording is expected to narrow the interval most, and to what;
@@ -49,10 +62,12 @@ struct Alike {
 inline constexpr double kAlike = 0.9;
 
 struct Estimate {
-  std::vector<Finding> findings;  ///< ratios, then gains, as they were asked for
-  std::vector<Alike> alike;       ///< pairs whose |cosine| is kAlike or more
+  std::vector<Finding>
+      findings;              ///< ratios, then gains, as they were asked for; then Young's modulus
+  std::vector<Alike> alike;  ///< pairs whose |cosine| is kAlike or more
   std::vector<Observation> recordings;
   std::vector<std::string> points;
+  double scenes_young_kpa = 0;       ///< of the soft tissue in the scene
   double rms_m = 0;                  ///< observed less modelled, of a coordinate
   double error_scale = 1;            ///< Mode::error_scale
   std::vector<std::string> remarks;  ///< sentences
@@ -61,7 +76,7 @@ struct Estimate {
 /// Finds ratios of stiffness and gains of muscles that explain recordings of a face. The muscles'
 /// forces are free but for their priors; both sides are assumed to be tried alike (posterior.hpp).
 /// Throws InputError for a request that names nothing, an unknown part or muscle, and for absolute
-/// stiffness, which motion does not determine.
+/// stiffness without a known load.
 Estimate estimate(const scene::Scene& scene, const Request& request);
 
 }  // namespace hyperex::estimate

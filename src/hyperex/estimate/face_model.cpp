@@ -52,12 +52,14 @@ FaceModel face_model(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const simulate::SimulationOptions& options,
                      const std::vector<std::string>& points, const Points& places,
                      const Question& question) {
-  FaceModel out{FaceResponses(mesh, landmarks, options, points, places, question.ratios),
-                simulate::JawKinematics(landmarks),
-                options.muscles.half,
-                {},
-                {},
-                places};
+  FaceModel out{
+      FaceResponses(mesh, landmarks, options, points, places, question.ratios, question.loads),
+      simulate::JawKinematics(landmarks),
+      options.muscles.half,
+      {},
+      {},
+      places,
+      question.loads};
   out.prior = muscle_pairs(out.responses.lines(), options.muscles);
   for (const std::string& gain : question.gains)
     out.acts.push_back(muscles_of(gain, out.responses.lines(), options.muscles.table()));

@@ -26,6 +26,7 @@ struct FaceModel {
   MusclePrior prior;
   std::vector<std::vector<int>> acts;  ///< per gain that is asked for: the muscles it acts on
   Points places;                       ///< of the points at rest, P x 3, m
+  std::vector<KnownLoad> loads;
 };
 
 /// `points`: names and places (P x 3, m) of those that all recordings observe. Mesh and landmarks

@@ -39,7 +39,8 @@ Eigen::MatrixXd unit_forces(const simulate::CarrierMatrix& carrier, Eigen::Index
 FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                              const simulate::SimulationOptions& options,
                              const std::vector<std::string>& points, const Points& places,
-                             std::vector<StiffnessRatio> ratios)
+                             std::vector<StiffnessRatio> ratios,
+                             const std::vector<KnownLoad>& loads)
     : ratios_(std::move(ratios)),
       assembler_(mesh.volume.nodes, mesh.volume.tets, options.model.element),
       own_(options.tissue.material(std::size_t(mesh.volume.tets.rows()),
@@ -56,6 +57,7 @@ FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks
   boundary_.emplace(mesh, landmarks, simulate::muscle_support(options.support, options.muscles));
   muscles_ = {own.force(), own.wide_force()};
   jaw_ = own.jaw_force();
+  for (const KnownLoad& load : loads) loads_.push_back(unit_forces_of(load, mesh, system_.mass));
   for (int way = 0; way < 2; ++way) {
     simulate::SimulationOptions beside = options;
     beside.muscles.own =
@@ -121,6 +123,8 @@ void FaceResponses::set_stiffness(const Eigen::VectorXd& logs) {
   columns_.muscles = at_points(muscles_);
   for (std::size_t way = 0; way < 2; ++way) columns_.lines[way] = at_points(moved_lines_[way]);
   columns_.jaw = adjoint_.transpose() * jaw_;
+  columns_.loads.clear();
+  for (const Eigen::MatrixXd& load : loads_) columns_.loads.push_back(adjoint_.transpose() * load);
   logs_ = logs;
 }
 
@@ -134,10 +138,17 @@ Eigen::VectorXd FaceResponses::force(const Acting& acting) const {
 }
 
 Eigen::MatrixXd FaceResponses::by_stiffness(const Acting& acting) {
-  Eigen::VectorXd moved = force(acting);
-  Eigen::VectorXd free = moved(factor_->free());
+  return by_stiffness_under(force(acting));
+}
+
+Eigen::MatrixXd FaceResponses::by_stiffness(std::size_t load, const Vec3& amount) {
+  return by_stiffness_under(loads_[load] * amount);
+}
+
+Eigen::MatrixXd FaceResponses::by_stiffness_under(const Eigen::VectorXd& force) {
+  Eigen::VectorXd free = force(factor_->free());
   factor_->solve(free);
-  moved.setZero();
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(force.size());
   moved(factor_->free()) = free;
   // The matrix is linear in Young's moduli: its derivative is a difference.
   fem::Material now = material(logs_);

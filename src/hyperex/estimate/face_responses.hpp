@@ -28,6 +28,8 @@ struct PointColumns {
   Bands muscles;               ///< 3 P x muscles, m
   std::array<Bands, 2> lines;  ///< the same per metre that a muscle's line is moved out and up
   Eigen::MatrixXd jaw;         ///< 3 P x 12, m: for JawKinematics::motion()
+  /// Per known load: 3 P x 3, m per m/s^2 or N along each axis.
+  std::vector<Eigen::MatrixXd> loads;
 };
 
 /// What acts on a face: coefficients of these columns.
@@ -46,7 +48,8 @@ class FaceResponses {
   /// `places`: P x 3, m, at rest. Mesh and landmarks must outlive this.
   FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const simulate::SimulationOptions& options, const std::vector<std::string>& points,
-                const Points& places, std::vector<StiffnessRatio> ratios);
+                const Points& places, std::vector<StiffnessRatio> ratios,
+                const std::vector<KnownLoad>& loads);
 
   const std::vector<muscles::MuscleLine>& lines() const { return lines_; }
   Eigen::Index unknowns() const { return Eigen::Index(ratios_.size()) + 1; }
@@ -57,6 +60,8 @@ class FaceResponses {
   const PointColumns& columns() const { return columns_; }
   /// The derivative of the points' displacement by the logarithms, 3 P x unknowns(), m.
   Eigen::MatrixXd by_stiffness(const Acting& acting);
+  /// The same under a known load.
+  Eigen::MatrixXd by_stiffness(std::size_t load, const Vec3& amount);
 
  private:
   fem::Material material(const Eigen::VectorXd& logs) const;
@@ -65,6 +70,7 @@ class FaceResponses {
   fem::SparseMatrix stiffness(const fem::Material& material);
   Bands at_points(const Bands& force) const;
   Eigen::VectorXd force(const Acting& acting) const;
+  Eigen::MatrixXd by_stiffness_under(const Eigen::VectorXd& force);
 
   std::vector<StiffnessRatio> ratios_;
   fem::Assembler assembler_;
@@ -74,6 +80,7 @@ class FaceResponses {
   Bands muscles_;
   std::array<Bands, 2> moved_lines_;
   Eigen::MatrixXd jaw_;
+  std::vector<Eigen::MatrixXd> loads_;
   simulate::CarrierMatrix carrier_;
   fem::System system_;
   std::optional<fem::PartitionedFactor> factor_;

@@ -27,7 +27,7 @@ double variance(const Mode& mode, Eigen::Index which,
 /// The end of the profile interval on one side (-1, +1) of the mode.
 double profile_end(Posterior& posterior, const Mode& mode, Eigen::Index which, double sigma,
                    double side) {
-  const bool is_gain = which >= posterior.unknowns().ratios;
+  const bool is_gain = posterior.unknowns().is_gain(which);
   double offset = kWithin95 * sigma;
   Eigen::VectorXd from = mode.x;
   for (int step = 0; step < kMostProfileSteps; ++step) {
@@ -66,7 +66,7 @@ AskedInterval interval_of(Posterior& posterior, const Mode& mode, Eigen::Index w
   out.laplace = {out.value - kWithin95 * out.sigma, out.value + kWithin95 * out.sigma};
   out.profile = {profile_end(posterior, mode, which, out.sigma, -1),
                  profile_end(posterior, mode, which, out.sigma, 1)};
-  if (which >= posterior.unknowns().ratios) out.laplace.low = std::max(0.0, out.laplace.low);
+  if (posterior.unknowns().is_gain(which)) out.laplace.low = std::max(0.0, out.laplace.low);
   return out;
 }
 
@@ -85,10 +85,12 @@ std::vector<ErrorPart> error_parts(const Mode& mode, const Unknowns& u, Eigen::I
   std::vector<ErrorPart> out{
       part("which muscles act, and how alike on both sides", of_recordings(0, u.muscles)),
       part("the jaw's pose", of_recordings(u.muscles, u.muscles + 6)),
-      part("the head's pose", of_recordings(u.muscles + 6, u.each())),
+      part("the head's pose", of_recordings(u.muscles + 6, u.muscles + 12)),
+      part("the direction of the known load", of_recordings(u.muscles + 12, u.each())),
       part("where the muscles lie",
            [&u](Eigen::Index i) { return i >= u.lines(0) && i < u.shared(); }),
-      part("how stiff the tissue is as a whole", [&u](Eigen::Index i) { return i == u.tissue(); }),
+      part("how stiff the tissue is relative to its support on the bones",
+           [&u](Eigen::Index i) { return i == u.tissue(); }),
       part("the other quantities that are asked for",
            [&u, which](Eigen::Index i) { return i < u.asked() && i != which; }),
   };

@@ -11,7 +11,7 @@ namespace hyperex::estimate {
 /// kWidestRatio, and those of a gain by at most kWidestGain.
 inline constexpr double kWidestRatio = 2.5, kWidestGain = 0.8;
 
-/// Of a logarithm or a gain.
+/// Of a logarithm (of a ratio, or of Young's modulus) or a gain.
 struct Range {
   double low = 0, high = 0;
 };

@@ -8,9 +8,10 @@
 
 namespace hyperex::estimate {
 
-/// One recording at the peak of its expression.
+/// One recording at the peak of its expression, or while a known load acts on a relaxed face.
 struct Observation {
   std::string name;
+  int load = -1;  ///< of Question::loads; below 0: muscles act
   /// Of the points from rest, x y z of each in turn, m.
   Eigen::VectorXd displacement_m;
   double time_s = 0;   ///< of the peak, from the first sample

@@ -17,6 +17,12 @@ constexpr double kSmallGain = 1e-3, kSmallProfileGain = 0.01;
 /// How often the scale of the model's errors is found anew.
 constexpr int kScaleRounds = 3;
 
+std::vector<int> loads_of(const std::vector<Observation>& observations) {
+  std::vector<int> out;
+  for (const Observation& observation : observations) out.push_back(observation.load);
+  return out;
+}
+
 }  // namespace
 
 std::vector<Eigen::Index> free_unknowns(const std::vector<char>& fixed) {
@@ -30,10 +36,13 @@ Posterior::Posterior(FaceModel& face, std::vector<Observation> observations,
                      const Assumptions& assumptions)
     : face_(face),
       observations_(std::move(observations)),
-      model_(face, {.ratios = face.responses.unknowns() - 1,
-                    .gains = Eigen::Index(face.acts.size()),
-                    .muscles = Eigen::Index(face.responses.lines().size()),
-                    .recordings = Eigen::Index(observations_.size())}),
+      model_(face,
+             {.ratios = face.responses.unknowns() - 1,
+              .gains = Eigen::Index(face.acts.size()),
+              .muscles = Eigen::Index(face.responses.lines().size()),
+              .recordings = Eigen::Index(observations_.size()),
+              .absolute = face.loads.empty() ? 0 : 1},
+             loads_of(observations_)),
       assumptions_(assumptions) {}
 
 Eigen::VectorXd Posterior::start() const {
@@ -52,6 +61,7 @@ Eigen::MatrixXd Posterior::prior_precision(const Eigen::VectorXd& x) const {
   };
   set(u.ratio(0), u.ratios, a.log_ratio);
   set(u.gain(0), u.gains, a.gain);
+  set(u.young(), u.absolute, a.log_young);
   set(u.tissue(), 1, a.log_tissue);
   for (int way = 0; way < 2; ++way) set(u.lines(way), u.muscles, a.line_m / std::sqrt(2.0));
   const MusclePrior& known = face_.prior;
@@ -89,6 +99,7 @@ Eigen::MatrixXd Posterior::prior_precision(const Eigen::VectorXd& x) const {
     const Observation& seen = observations_[std::size_t(e)];
     set(u.head(e), 3, seen.head_turn_rad);
     set(u.head(e) + 3, 3, seen.head_shift_m);
+    set(u.load_turn(e), 3, a.load_turn_rad);
   }
   return out;
 }

@@ -10,8 +10,10 @@ std::vector<Proposal> proposals(FaceModel& face, const Posterior& posterior, con
                                 const Assumptions& assumptions) {
   std::vector<Observation> seen = posterior.observations();
   seen.push_back(seen.front());
+  seen.back().load = -1;
   const Posterior with(face, seen, assumptions);
-  RecordingModel model(face, with.unknowns());
+  std::vector<int> loads(seen.size(), -1);  // only the last is used
+  RecordingModel model(face, with.unknowns(), loads);
   const Unknowns& u = with.unknowns();
   const Eigen::Index before = mode.x.size(), added = u.each(), last = u.recordings - 1;
   std::vector<Proposal> out;

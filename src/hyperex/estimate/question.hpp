@@ -3,10 +3,12 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/estimate/known_load.hpp"
+
 namespace hyperex::estimate {
 
 /// A ratio of Young's moduli: that of one part of the tissue to that of another, or to what the
-/// scene has there. Ratios alone: recorded motion does not determine absolute stiffness.
+/// scene has there. Ratios alone: motion by muscles does not determine absolute stiffness.
 struct StiffnessRatio {
   std::string name;  ///< "cheek_L / cheek_R"
   /// Per tetrahedron, 0 to 1: how much of the change applies. With the ratio r, Young's modulus is
@@ -21,6 +23,8 @@ struct Question {
   /// Muscles, or branches of a side, as MuscleGain::muscle: how strongly they act relative to the
   /// effort, which is much the same for both sides (Assumptions).
   std::vector<std::string> gains;
+  /// Where there are any, the stiffness of the whole tissue is found too.
+  std::vector<KnownLoad> loads = {};
 };
 
 }  // namespace hyperex::estimate

@@ -73,9 +73,11 @@ StiffnessRatio ratio_of(session::FaceSession& session, const std::string& asked)
   const std::string over = asked.substr(0, colon);
   for (const char* whole : {"all", "tissue", "young_kpa", "tissue.young_kpa"})
     if (asked == whole)
-      refuse(asked,
-             "a ratio of two parts, as cheek_L:cheek_R. Motion alone does not determine how stiff "
-             "the whole tissue is: stiffer tissue under stronger muscles moves the same");
+      refuse(
+          asked,
+          "a ratio of two parts, as cheek_L:cheek_R. Motion alone does not determine how stiff "
+          "the whole tissue is: stiffer tissue under stronger muscles moves the same. A known load "
+          "does (--lying, --weight)");
   StiffnessRatio out;
   out.name = over;
   out.over = shares(session, asked, over);

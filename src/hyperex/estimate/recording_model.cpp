@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/estimate/recording_model.hpp"
 
+#include <cmath>
+
 namespace hyperex::estimate {
 namespace {
 
@@ -30,8 +32,40 @@ Eigen::MatrixXd rigid_columns(const Points& places) {
 
 }  // namespace
 
-RecordingModel::RecordingModel(FaceModel& face, const Unknowns& unknowns)
-    : face_(face), unknowns_(unknowns), head_(rigid_columns(face.places)) {}
+RecordingModel::RecordingModel(FaceModel& face, const Unknowns& unknowns, std::vector<int> loads)
+    : face_(face),
+      unknowns_(unknowns),
+      loads_(std::move(loads)),
+      head_(rigid_columns(face.places)) {}
+
+/// Displacement without the error of the head's pose.
+Eigen::VectorXd RecordingModel::under_load(const Eigen::VectorXd& x, Eigen::Index recording) const {
+  const auto load = std::size_t(loads_[std::size_t(recording)]);
+  const Vec3 amount = face_.loads[load].amount;
+  const Vec3 turned = amount + Vec3(x.segment<3>(unknowns_.load_turn(recording))).cross(amount);
+  return std::exp(x[unknowns_.tissue()] - x[unknowns_.young()]) *
+         (face_.responses.columns().loads[load] * turned);
+}
+
+Eigen::MatrixXd RecordingModel::derivative_under_load(const Eigen::VectorXd& x,
+                                                      Eigen::Index recording) {
+  const auto load = std::size_t(loads_[std::size_t(recording)]);
+  const Vec3 amount = face_.loads[load].amount;
+  const Vec3 turn = x.segment<3>(unknowns_.load_turn(recording));
+  const double softer = std::exp(x[unknowns_.tissue()] - x[unknowns_.young()]);
+  const Eigen::VectorXd moved = under_load(x, recording);
+  const Eigen::MatrixXd by_stiffness =
+      softer * face_.responses.by_stiffness(load, amount + turn.cross(amount));
+  Eigen::MatrixXd out = Eigen::MatrixXd::Zero(head_.rows(), unknowns_.all());
+  out.leftCols(unknowns_.ratios) = by_stiffness.leftCols(unknowns_.ratios);
+  out.col(unknowns_.tissue()) = by_stiffness.rightCols<1>() + moved;
+  out.col(unknowns_.young()) = -moved;
+  for (int axis = 0; axis < 3; ++axis)
+    out.col(unknowns_.load_turn(recording) + axis) =
+        softer * (face_.responses.columns().loads[load] * Vec3::Unit(axis).cross(amount));
+  out.middleCols<6>(unknowns_.head(recording)) = head_;
+  return out;
+}
 
 /// Per muscle: the product of the gains that act on it, but for one of them.
 Eigen::VectorXd RecordingModel::gains(const Eigen::VectorXd& x, Eigen::Index without) const {
@@ -59,6 +93,8 @@ Acting RecordingModel::acting(const Eigen::VectorXd& x, Eigen::Index recording) 
 
 Eigen::VectorXd RecordingModel::displacement(const Eigen::VectorXd& x, Eigen::Index recording) {
   face_.responses.set_stiffness(unknowns_.stiffness(x));
+  if (loads_[std::size_t(recording)] >= 0)
+    return under_load(x, recording) + head_ * x.segment<6>(unknowns_.head(recording));
   const Acting now = acting(x, recording);
   const PointColumns& columns = face_.responses.columns();
   Eigen::VectorXd out = columns.muscles.narrow * now.narrow + columns.muscles.wide * now.wide +
@@ -71,6 +107,7 @@ Eigen::VectorXd RecordingModel::displacement(const Eigen::VectorXd& x, Eigen::In
 
 Eigen::MatrixXd RecordingModel::derivative(const Eigen::VectorXd& x, Eigen::Index recording) {
   face_.responses.set_stiffness(unknowns_.stiffness(x));
+  if (loads_[std::size_t(recording)] >= 0) return derivative_under_load(x, recording);
   const Acting now = acting(x, recording);
   const PointColumns& columns = face_.responses.columns();
   const Eigen::Index n = unknowns_.muscles;

@@ -8,20 +8,27 @@ namespace hyperex::estimate {
 /// those of each recording.
 struct Unknowns {
   Eigen::Index ratios = 0, gains = 0, muscles = 0, recordings = 0;
+  Eigen::Index absolute = 0;  ///< 1 where known loads determine the stiffness itself
 
-  Eigen::Index asked() const { return ratios + gains; }
+  Eigen::Index asked() const { return ratios + gains + absolute; }
   Eigen::Index ratio(Eigen::Index i) const { return i; }  ///< logarithms
   Eigen::Index gain(Eigen::Index i) const { return ratios + i; }
-  Eigen::Index tissue() const { return asked(); }  ///< logarithm
+  bool is_gain(Eigen::Index i) const { return ratios <= i && i < ratios + gains; }
+  /// Logarithm of Young's modulus of the whole tissue over the scene's.
+  Eigen::Index young() const { return ratios + gains; }
+  /// Logarithm of the same, relative to the support on the bones.
+  Eigen::Index tissue() const { return asked(); }
   /// Of one way (0 out, 1 up), m.
   Eigen::Index lines(int way) const { return asked() + 1 + way * muscles; }
   Eigen::Index shared() const { return asked() + 1 + 2 * muscles; }
 
-  Eigen::Index each() const { return muscles + 6 + 6; }
+  Eigen::Index each() const { return muscles + 6 + 6 + 3; }
   Eigen::Index activations(Eigen::Index recording) const { return shared() + recording * each(); }
   Eigen::Index jaw(Eigen::Index recording) const { return activations(recording) + muscles; }
   /// An error of the head's pose: a rotation (rad) about the middle of the points, and a shift (m).
   Eigen::Index head(Eigen::Index recording) const { return jaw(recording) + 6; }
+  /// An error of a known load's direction: a rotation, rad.
+  Eigen::Index load_turn(Eigen::Index recording) const { return head(recording) + 6; }
   Eigen::Index all() const { return shared() + recordings * each(); }
 
   /// Logarithms of the ratios and of the whole tissue, as FaceResponses takes them.

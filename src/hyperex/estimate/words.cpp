@@ -8,8 +8,25 @@
 namespace hyperex::estimate {
 namespace {
 
-std::string range_words(const Range& range) {
+std::string kpa(double value) {
+  return fmt::format("{:.{}f}", value, value < 10 ? 1 : 0);
+}
+
+/// "1.42 to 2.31"; "8.1 to 15 kPa".
+std::string range_words(const Finding& f, const Range& range) {
+  if (f.kind == Finding::Kind::young)
+    return fmt::format("{} to {} kPa", kpa(range.low), kpa(range.high));
   return fmt::format("{:.2f} to {:.2f}", range.low, range.high);
+}
+
+std::string value_words(const Finding& f) {
+  if (f.kind == Finding::Kind::young) return kpa(f.value) + " kPa";
+  return fmt::format("{:.2f}", f.value);
+}
+
+const char* key_of(Finding::Kind kind) {
+  if (kind == Finding::Kind::young) return "young_kpa";
+  return kind == Finding::Kind::ratio ? "stiffness_ratio" : "gain";
 }
 
 /// "cheek_L is stiffer than cheek_R".
@@ -23,6 +40,7 @@ std::string meaning(const Finding& f) {
   const std::string over = f.name.substr(0, slash);
   const std::string under =
       slash == std::string::npos ? "the scene has it" : f.name.substr(slash + 3) + " is";
+  if (f.kind == Finding::Kind::young) return "Young's modulus, the same everywhere";
   return above   ? fmt::format("{} is stiffer than {}", over, under)
          : below ? fmt::format("{} is softer than {}", over, under)
                  : "no difference is shown";
@@ -30,15 +48,15 @@ std::string meaning(const Finding& f) {
 
 std::string sentence(const Finding& f, std::size_t recordings) {
   const std::string who = recordings == 1 ? "this recording" : "these recordings";
-  std::string out = f.determined ? fmt::format("{}: {:.2f} (95 %: {}): {}.", f.name, f.value,
-                                               range_words(f.interval), meaning(f))
+  std::string out = f.determined ? fmt::format("{}: {} (95 %: {}): {}.", f.name, value_words(f),
+                                               range_words(f, f.interval), meaning(f))
                                  : fmt::format("{}: {} cannot tell (95 %: {}).", f.name, who,
-                                               range_words(f.interval));
+                                               range_words(f, f.interval));
   out += fmt::format(" Largest part of the interval: {}.", f.parts.front().words);
   if (!f.further.empty())
     out += fmt::format(" A recording of \"{}\" beside {} would narrow it most, to about {}.",
                        f.further, recordings == 1 ? "this one" : "these",
-                       range_words(f.further_interval));
+                       range_words(f, f.further_interval));
   return out;
 }
 
@@ -65,7 +83,7 @@ std::string as_json(const Estimate& estimate) {
   nlohmann::json out;
   for (const Finding& f : estimate.findings) {
     nlohmann::json one{{"name", f.name},
-                       {"kind", f.kind == Finding::Kind::ratio ? "stiffness_ratio" : "gain"},
+                       {"kind", key_of(f.kind)},
                        {"value", f.value},
                        {"interval_95", json_of(f.interval)},
                        {"laplace_95", json_of(f.laplace)},
@@ -83,6 +101,7 @@ std::string as_json(const Estimate& estimate) {
   for (const Observation& seen : estimate.recordings)
     out["recordings"].push_back(
         {{"name", seen.name}, {"peak_s", seen.time_s}, {"noise_mm", 1e3 * seen.noise_m}});
+  out["scenes_young_kpa"] = estimate.scenes_young_kpa;
   out["points"] = estimate.points;
   out["fit_rms_mm"] = 1e3 * estimate.rms_m;
   out["model_error_scale"] = estimate.error_scale;

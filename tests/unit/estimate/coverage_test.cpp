@@ -83,6 +83,34 @@ TEST(Coverage, OfTwoExpressions) {
   EXPECT_LT(std::sqrt(gain.squared_error / draws()), 0.2);
 }
 
+/// Young's modulus of 10 to 40 kPa from a smile and gravity, whose direction is off by 3 degrees.
+TEST(Coverage, OfStiffnessUnderGravity) {
+  const auto points = inner_points();
+  const KnownLoad lying = lying_down(programs_mesh().face.landmarks);
+  FaceModel face = model_of({{}, {}, {lying}}, points);
+  const double scenes_kpa = 1e-3 * programs_mesh().face.options.tissue.uniform[tissue::young];
+  const int patients = draws(8);
+  Tally tally;
+  for (int draw = 0; draw < patients; ++draw) {
+    const Patient patient = patient_of(draw);
+    std::mt19937 random(unsigned(draw) + 300);
+    std::normal_distribution<double> normal;
+    const double kpa = 20 * std::exp(0.35 * normal(random));
+    const Vec3 turned = 0.05 * Vec3::NullaryExpr([&](auto) { return normal(random); });
+    auto seen = observations_of(patient, {"smile"}, points);
+    // Of tissue and support alike, beside what the patient's tissue is relative to the support.
+    seen.push_back(
+        lying_observation_of(patient, kpa / (scenes_kpa * patient.young_factor), turned, points));
+    Posterior posterior(face, seen, {});
+    const Mode mode = posterior.find(posterior.start(), {});
+    const double sigma = std::sqrt(asked_covariance(mode, posterior.unknowns())(0, 0));
+    tally.add(mode.x[0] - std::log(kpa / scenes_kpa), sigma, std::log(kWidestRatio));
+  }
+  std::puts("| | inside | mean sigma | rms error | rms z | determined |");
+  tally.print("ln of Young's modulus under gravity", patients);
+  EXPECT_GE(tally.inside, 0.9 * patients - 1);
+}
+
 /// Tissue at finite strain, as the program does not assume it: a tenth of the patients.
 TEST(Coverage, OfAnotherLaw) {
   const int patients = draws() / 10;

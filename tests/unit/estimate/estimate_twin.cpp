@@ -127,4 +127,30 @@ std::vector<Observation> observations_of(const Patient& patient,
   return out;
 }
 
+Observation lying_observation_of(const Patient& patient, double young_factor, const Vec3& turned,
+                                 const std::vector<std::string>& points) {
+  const auto& face = truths_mesh().face;
+  KnownLoad load = lying_down(face.landmarks);
+  const Points places = places_of(points);
+  FaceResponses responses(*face.mesh, face.landmarks, face.options, points, places, {}, {load});
+  responses.set_stiffness(Eigen::VectorXd::Constant(1, std::log(patient.young_factor)));
+  load.amount += turned.cross(load.amount);
+  const Eigen::VectorXd moved = responses.columns().loads[0] * load.amount / young_factor;
+  simulate::AlignedMotion motion;
+  motion.motion.names = motion.common = points;
+  motion.rest = places;
+  for (int k = 0; k < 20; ++k) {
+    motion.motion.time_s.push_back(k / 30.0);
+    Points at = places;
+    if (k > 0)
+      for (Eigen::Index p = 0; p < at.rows(); ++p) at.row(p) += moved.segment<3>(3 * p).transpose();
+    motion.motion.positions.push_back(at);
+  }
+  std::mt19937 random(patient.seed + 1000);
+  add_noise(motion.motion, patient.noise_m, random);
+  Observation out = observe(motion, points, {patient.noise_m, 2e-3, 2e-4}, "lying");
+  out.load = 0;
+  return out;
+}
+
 }  // namespace hyperex::estimate::test

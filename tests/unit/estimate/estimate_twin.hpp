@@ -42,6 +42,13 @@ std::vector<Observation> observations_of(const Patient& patient,
                                          const std::vector<std::string>& expressions,
                                          const std::vector<std::string>& points);
 
+/// What the points do, as the program observes it, while the patient lies face up. `young_factor`:
+/// of Young's modulus and of the support alike, relative to the scene's; beside
+/// patient.young_factor, which is relative to the support. `turned`: an error of the direction of
+/// gravity, rad about each axis.
+Observation lying_observation_of(const Patient& patient, double young_factor, const Vec3& turned,
+                                 const std::vector<std::string>& points);
+
 /// What the program knows of the face.
 FaceModel model_of(const Question& question, const std::vector<std::string>& points);
 /// All 68 but those of the outline that are not of the chin.

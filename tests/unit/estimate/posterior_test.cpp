@@ -8,6 +8,7 @@
 #include <random>
 
 #include "estimate/estimate_twin.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/intervals.hpp"
 #include "hyperex/estimate/proposal.hpp"
@@ -25,7 +26,7 @@ TEST(RecordingModel, DerivativeIsThatOfFiniteDifferences) {
   seen.head_turn_rad = seen.head_shift_m = 1e-3;
   Posterior posterior(face, {seen, seen}, {});
   const Unknowns& u = posterior.unknowns();
-  RecordingModel model(face, u);
+  RecordingModel model(face, u, {-1, -1});
   Eigen::VectorXd x = posterior.start();
   for (Eigen::Index i = u.activations(0); i < u.all(); ++i)
     if ((i - u.shared()) % u.each() < u.muscles) x[i] = 0.05 + 0.01 * double(i % 17);
@@ -50,6 +51,84 @@ TEST(RecordingModel, DerivativeIsThatOfFiniteDifferences) {
     EXPECT_LT((analytic.col(i) - numeric).norm(), 1e-5 * numeric.norm()) << i;
   }
   EXPECT_EQ(analytic.col(u.activations(0)).norm(), 0) << "of the other recording";
+}
+
+TEST(RecordingModel, DerivativeUnderKnownLoadsIsThatOfFiniteDifferences) {
+  const std::vector<std::string> points{"ibug68_48", "ibug68_54", "ibug68_8", "ibug68_51"};
+  const io::Landmarks& landmarks = programs_mesh().face.landmarks;
+  FaceModel face =
+      model_of({{programs_mesh().cheeks()},
+                {},
+                {lying_down(landmarks), hung_weight(landmarks, landmarks.at("ibug68_48"), 0.02)}},
+               points);
+  Observation seen;
+  seen.displacement_m = Eigen::VectorXd::Constant(12, 1e-3);
+  seen.head_turn_rad = seen.head_shift_m = 1e-3;
+  Observation lying = seen, weighted = seen;
+  lying.load = 0;
+  weighted.load = 1;
+  Posterior posterior(face, {seen, lying, weighted}, {});
+  const Unknowns& u = posterior.unknowns();
+  ASSERT_EQ(u.absolute, 1);
+  RecordingModel model(face, u, {-1, 0, 1});
+  Eigen::VectorXd x = posterior.start();
+  x[u.ratio(0)] = 0.5;
+  x[u.young()] = -0.7;
+  x[u.tissue()] = 0.3;
+  for (const Eigen::Index e : {1, 2}) {
+    x[u.load_turn(e) + 1] = 0.1;
+    const Eigen::MatrixXd analytic = model.derivative(x, e);
+    for (const Eigen::Index i :
+         {u.ratio(0), u.young(), u.tissue(), u.load_turn(e), u.load_turn(e) + 2, u.head(e) + 1}) {
+      constexpr double h = 1e-5;
+      Eigen::VectorXd more = x, less = x;
+      more[i] += h;
+      less[i] -= h;
+      const Eigen::VectorXd numeric =
+          (model.displacement(more, e) - model.displacement(less, e)) / (2 * h);
+      EXPECT_GT(numeric.norm(), 0) << i;
+      EXPECT_LT((analytic.col(i) - numeric).norm(), 1e-5 * numeric.norm()) << i;
+    }
+    // Tissue and support twice as stiff together move by half.
+    Eigen::VectorXd stiff = x;
+    stiff[u.young()] += std::log(2.0);
+    EXPECT_LT((model.displacement(x, e) - 2 * model.displacement(stiff, e)).norm(), 1e-12);
+    EXPECT_EQ(analytic.col(u.activations(0)).norm() + analytic.col(u.activations(e)).norm(), 0);
+  }
+  EXPECT_EQ(model.derivative(x, 0).col(u.young()).norm(), 0) << "muscles do not determine it";
+}
+
+TEST(KnownLoad, IsTheWeightOfTheTissueOrOfWhatHangsFromIt) {
+  const TwinMesh& mesh = programs_mesh();
+  const tissue::TissueMesh& tissue = *mesh.face.mesh;
+  fem::System system;
+  const fem::Material material = mesh.face.options.tissue.material(
+      std::size_t(tissue.volume.tets.rows()), mesh.face.options.model.viscous_form);
+  fem::Assembler(tissue.volume.nodes, tissue.volume.tets, fem::ElementKind::tet4)
+      .assemble(material, system);
+  const auto total = [](const Eigen::MatrixXd& force) {
+    Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+    for (Eigen::Index row = 0; row < force.rows(); ++row) sum.row(row % 3) += force.row(row);
+    return sum;
+  };
+  const double volume_m3 =
+      1e-9 * tissue::quality_of(tissue.volume.nodes, tissue.volume.tets).total_volume_mm3;
+  const KnownLoad lying = lying_down(mesh.face.landmarks);
+  const double mass_kg = material.density_kg_m3.front() * volume_m3;
+  EXPECT_LT(
+      (total(unit_forces_of(lying, tissue, system.mass)) - mass_kg * Eigen::Matrix3d::Identity())
+          .norm(),
+      1e-9 * mass_kg);
+  EXPECT_NEAR(lying.amount.norm(), 9.81 * std::sqrt(2.0), 1e-9);
+  const auto& landmarks = mesh.face.landmarks;
+  EXPECT_GT(lying.amount.dot(landmarks.at("ibug68_27") - landmarks.at("ibug68_8")), 0) << "up";
+  EXPECT_LT(lying.amount.dot(landmarks.at("ibug68_30") - landmarks.at("ibug68_36")), 0) << "back";
+  const KnownLoad weight = hung_weight(landmarks, landmarks.at("ibug68_48"), 0.02);
+  const Eigen::MatrixXd hung = unit_forces_of(weight, tissue, system.mass);
+  EXPECT_LT((total(hung) - Eigen::Matrix3d::Identity()).norm(), 1e-12);
+  EXPECT_NEAR(weight.amount.norm(), 0.02 * 9.81, 1e-12);
+  const Vec3 far = landmarks.at("ibug68_48") + Vec3(0, 0, 0.1);
+  EXPECT_THROW(unit_forces_of(hung_weight(landmarks, far, 0.02), tissue, system.mass), InputError);
 }
 
 TEST(FaceResponses, AreThoseOfTheMusclesInTheScenesTissue) {
