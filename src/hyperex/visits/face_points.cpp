@@ -29,7 +29,13 @@ const std::vector<Definition>& definitions() {
       {FacePoint::lower_lid_R, "palpebrale_inferius_R", {40, 41}},
       {FacePoint::lower_lid_L, "palpebrale_inferius_L", {46, 47}},
       {FacePoint::brow_R, "", {18, 19, 20}},
-      {FacePoint::brow_L, "", {23, 24, 25}}};
+      {FacePoint::brow_L, "", {23, 24, 25}},
+      {FacePoint::outer_eye_R, "exocanthion_R", {36}},
+      {FacePoint::outer_eye_L, "exocanthion_L", {45}},
+      {FacePoint::alare_R, "alare_R", {31}},
+      {FacePoint::alare_L, "alare_L", {35}},
+      {FacePoint::crista_philtri_R, "crista_philtri_inferior_R", {50}},
+      {FacePoint::crista_philtri_L, "crista_philtri_inferior_L", {52}}};
   return all;
 }
 

@@ -21,9 +21,15 @@ enum class FacePoint {
   lower_lid_R,
   lower_lid_L,
   brow_R,
-  brow_L
+  brow_L,
+  outer_eye_R,
+  outer_eye_L,
+  alare_R,
+  alare_L,
+  crista_philtri_R,
+  crista_philtri_L
 };
-inline constexpr std::size_t kFacePoints = 12;
+inline constexpr std::size_t kFacePoints = 18;
 
 enum class Side { right, left };
 

@@ -57,6 +57,20 @@ double corner_height(const FaceState& face) {
                               at(face.rest, FacePoint::corner_L));
 }
 
+/// xi of metrics::SymmetryCurve: relative changes of the distances from the corner of the mouth.
+double stretch(const FaceState& face, Side side) {
+  double sum = 0;
+  for (const FacePoint right : {FacePoint::outer_eye_R, FacePoint::lower_lid_R, FacePoint::alare_R,
+                                FacePoint::crista_philtri_R}) {
+    const auto distance = [&](const ByFacePoint<Vec3>& points) {
+      return (at(points, of_side(FacePoint::corner_R, side)) - at(points, of_side(right, side)))
+          .norm();
+    };
+    sum += distance(face.peak) / distance(face.rest) - 1;
+  }
+  return sum;
+}
+
 using BySide = double (*)(const FaceState&, Side);
 constexpr const char *kMm = "mm", *kDegrees = "degrees", *kPercent = "%";
 
@@ -98,6 +112,10 @@ void add_corners(std::vector<Measure>& all) {
 std::vector<Measure> all_measures() {
   std::vector<Measure> all;
   add_corners(all);
+  all.push_back({"stretch_difference", "Stretch about the mouth: R less L (S is ln of its size)",
+                 "", kPercent, [](const FaceState& face) {
+                   return 100 * (stretch(face, Side::right) - stretch(face, Side::left));
+                 }});
   add_single(all, "lip_opening", "Lips: opening at the peak", [](const FaceState& face) {
     return (at(face.peak, FacePoint::inner_upper_lip) - at(face.peak, FacePoint::inner_lower_lip))
         .norm();

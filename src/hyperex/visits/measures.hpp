@@ -40,6 +40,9 @@ inline constexpr double kLeastMovement_m = 2e-3;
 ///  corner_follows  its part along the mirrored direction of the other corner, in % of the other's
 ///                  excursion. A corner that is dragged the other way has a negative value.
 ///  corner_difference  excursion of the right less that of the left corner
+///  stretch_difference  100 (xi_R - xi_L), where xi is the sum of the relative changes of four
+///                      distances from the corner of the mouth: S(t) is the logarithm of its size
+///                      (metrics/symmetry.hpp)
 ///  lip_opening  distance between the inner lips at the peak
 ///  brow_raise  upward movement of the brow
 ///  eye_opening  distance between the lids at rest

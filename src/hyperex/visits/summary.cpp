@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/visits/norms.hpp"
+
 namespace hyperex::visits {
 namespace {
 
@@ -67,6 +69,10 @@ std::vector<std::string> summary(const Comparison& comparison) {
   std::vector<std::string> out;
   for (const MeasureOverVisits& one : comparison.measures)
     if (one.measure.key == words.key) out.push_back(sentence(one, words, comparison.file));
+  if (const Norm* norm = norm_of(comparison.file.expression); norm && !out.empty())
+    out.push_back(fmt::format(
+        "Healthy adults move the {} by {:.1f} mm, SD {:.1f}, as far as they can ({} adults: {}).",
+        norm->part, norm->mean_mm, norm->deviation_mm, norm->people, norm->source));
   return out;
 }
 

@@ -10,7 +10,7 @@ namespace hyperex::visits {
 /// What changed between the first and the last visit, in sentences: for each side the measure that
 /// the expression is judged by. "Right corner of the mouth: 8.0 mm on 2026-06-01, 12.1 mm on
 /// 2026-03-01; 4.1 mm less (95 %: 2.3 to 5.9), beyond what measurement and repetition make." With
-/// one visit, its values alone.
+/// one visit, its values alone. A last sentence has the norm of healthy adults, if there is one.
 std::vector<std::string> summary(const Comparison& comparison);
 
 /// Where the figure for repetition comes from.

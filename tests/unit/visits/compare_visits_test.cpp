@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/visits/summary.hpp"
 #include "smiling_face.hpp"
 
@@ -57,6 +58,17 @@ TEST(CompareVisits, RepetitionIsTheIntervalOfAnExcursion) {
   EXPECT_NEAR(difference.all.high - difference.value, std::sqrt(2.0) * 1.5, 0.5);
 }
 
+TEST(CompareVisits, TheStretchIsThatOfTheSymmetryCurve) {
+  const Smile uneven{.right = 0.6};
+  const Comparison one = of_smiles({{uneven}});
+  const metrics::SymmetryCurve curve = metrics::symmetry_of(recording_of(uneven));
+  double farthest = 0;
+  for (std::size_t k = 0; k < curve.time_s.size(); ++k)
+    farthest = std::max(farthest, curve.xi_right[k] - curve.xi_left[k]);
+  ASSERT_GT(farthest, 0.05);
+  EXPECT_NEAR(named(one, "stretch_difference", "").values[0]->value, 100 * farthest, 0.2);
+}
+
 TEST(CompareVisits, WithoutRepetitionMeasurementAloneDecides) {
   const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}}, 0.0, 0);
   const Change& right = *named(two, "corner_excursion", "R").changes.back();
@@ -94,12 +106,16 @@ TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
 
 TEST(CompareVisits, SayWhatChangedInSentences) {
   const std::vector<std::string> sentences = summary(of_smiles({{Smile{}}, {Smile{.right = 0.6}}}));
-  ASSERT_EQ(sentences.size(), 2u);
+  ASSERT_EQ(sentences.size(), 3u);
   EXPECT_THAT(sentences[0], testing::StartsWith("Right corner of the mouth: 11.5 mm on day 1"));
   EXPECT_THAT(sentences[0], HasSubstr("4.6 mm less"));
   EXPECT_THAT(sentences[0], HasSubstr("beyond what"));
   EXPECT_THAT(sentences[1], HasSubstr("within what"));
   EXPECT_THAT(summary(of_smiles({{Smile{}}}))[0], HasSubstr("11.5 mm on day 1."));
+  EXPECT_THAT(sentences.back(), HasSubstr("Healthy adults move the corner of the mouth by 9.3 mm"));
+  Comparison pucker = of_smiles({{Smile{}}});
+  pucker.file.expression = *expression_named("pucker");
+  EXPECT_EQ(summary(pucker).size(), 2U) << "no norm of a smile";
 }
 
 }  // namespace
