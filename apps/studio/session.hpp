@@ -92,6 +92,7 @@ class Session {
   nlohmann::json live_take(const nlohmann::json& fields);
   nlohmann::json free_name(const nlohmann::json& fields);
   nlohmann::json discard_autosave(const nlohmann::json& fields);
+  nlohmann::json compare_visits(const nlohmann::json& fields);
   nlohmann::json save(const nlohmann::json& fields);
 
   /// The open face. Throws InputError where there is none.
@@ -111,6 +112,10 @@ class Session {
   /// Whether to offer the work of a crashed session.
   bool offers_rescued() const;
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }
+
+  // Two recordings (session_visits.cpp).
+  /// The name of the recording before the present one; empty where there is none.
+  std::string earlier_recording() const;
 
   // Changes and their history (session_edits.cpp).
   /// Every path that the scene or one of its variants names.
@@ -163,6 +168,7 @@ class Session {
   std::unique_ptr<OpenFace> face_;
   Step now_;  ///< the last commit; face_ may be newer while a slider is dragged
   std::vector<Step> undo_, redo_;
+  std::optional<Step> earlier_;  ///< of the same face, with the recording before the present one
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        budget_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;

@@ -86,6 +86,7 @@ void Session::send_scene() {
                       {"points", face_->session().inputs().motion.motion.names},
                       {"drive", values[0]["drive.by"]},
                       {"drive_why", face_->session().drive_reason()},
+                      {"earlier", earlier_recording()},
                       {"can_undo", !undo_.empty()},
                       {"can_redo", !redo_.empty()},
                       {"saved", saved_},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opening scans, recordings and scenes.
 
+#include <fmt/format.h>
+
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/lower_case.hpp"
@@ -43,7 +45,14 @@ json Session::open(const json& fields) {
     const fs::path file = uploaded(recording);
     if (file.empty()) throw InputError("recording: expected the name of an upload");
     require_face();
+    const Step before = now_;
     commit(with_recording(now_.text, file));
+    earlier_ = before;
+    if (const std::string earlier = earlier_recording(); !earlier.empty())
+      log("note", fmt::format("the recording before, {}, can be compared with this one as an "
+                              "earlier visit of the same person (Files: What has changed?)",
+                              earlier));
+    send_scene();
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
     static_cast<void>(uploaded(recording));  // unpacks it; the scene names it by itself
     open_text(with_uploads(read_file(file), uploads()), file);
@@ -91,6 +100,7 @@ void Session::open_text(const std::string& text, const fs::path& file) {
   now_ = {text, file};
   undo_.clear();
   redo_.clear();
+  earlier_.reset();
   motion_due_ = true;
   saved_ = true;
   send_scene();

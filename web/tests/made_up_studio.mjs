@@ -92,6 +92,7 @@ class Session {
   faces = [{ name: 'base', values: defaults }];
   requests = [];
   title = 'Made up';
+  earlier = '';
   constructor(socket, remarksOf) {
     Object.assign(this, { socket, remarksOf });
     socket.onMessage((text) => this.answer(JSON.parse(text)));
@@ -102,7 +103,7 @@ class Session {
   scene() {
     this.send({
       event: 'scene', title: this.title, values: this.faces.map(({ values }) => values), faces: this.faces.map(({ name, values }, i) => ({ name, changes: i === 0 ? {} : Object.fromEntries(Object.entries(values).filter(([k, v]) => v !== defaults[k])) })),
-      points: ['band_1', 'band_2', 'band_3', 'band_4', 'cheilion_L'], drive: 'muscles', drive_why: 'the scene says so', can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
+      points: ['band_1', 'band_2', 'band_3', 'band_4', 'cheilion_L'], drive: 'muscles', drive_why: 'the scene says so', earlier: this.earlier, can_undo: false, can_redo: false, saved: true, text: JSON.stringify(this.faces),
     });
   }
   moved(event) {
@@ -132,6 +133,8 @@ class Session {
         if (!fields.live) Object.assign(face, { values: { ...face.values, ...fields.changes }, name: fields.name ?? face.name });
         return { superseded: false };
       },
+      free_name: () => ({ name: fields.name }),
+      compare_visits: () => ({ path: `/mine/${fields.name}.html`, sentences: [`${fields.expression}: 4.6 mm less`] }),
       paint: () => ({ file: `painted-${this.requests.length}.csv` }),
     };
     this.send({ answer: id, ...answers[name]?.() });

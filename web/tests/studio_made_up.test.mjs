@@ -129,6 +129,25 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('what has changed since the recording before: asked where there is one, of what was performed', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    const box = page.locator('.compare-recordings');
+    assert.equal(await box.evaluate((element) => element.hidden), true);
+    session().earlier = 'march.csv';
+    session().scene();
+    await page.waitForFunction(() => !document.querySelector('.compare-recordings').hidden);
+    assert.match(await box.textContent(), /march\.csv moved the face/);
+    await box.locator('select').evaluate((select) => (select.value = 'brow raise'));
+    await box.locator('button').evaluate((press) => press.click());
+    await page.waitForFunction(() => document.querySelector('.compare-result .why'));
+    assert.match(await box.locator('.compare-result').textContent(), /brow raise: 4\.6 mm less.*\/mine\/Made-up-brow-raise\.html/i);
+    session().faces[0].name = 'another scene';
+    session().scene();
+    await page.waitForFunction(() => !document.querySelector('.compare-result .why'));
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('a stroke of the brush is painted, sent and shown as a patch', async () => {
     const { page, complaints, session, close } = await openMadeUp(browser, () => []);
     await page.locator('#tab-paint').dispatchEvent('click');

@@ -184,6 +184,35 @@ TEST_F(StudioSession, ASecondRecordingMovesTheFaceThatIsOpen) {
   EXPECT_EQ(error.find("uploads"), std::string::npos) << error;
 }
 
+TEST_F(StudioSession, ComparesARecordingWithTheOneBefore) {
+  open();
+  EXPECT_EQ(event("scene")->head["earlier"], "");
+  const auto compared = [&](const std::string& name) {
+    return ask("compare_visits", {{"expression", "smile"}, {"name", name}});
+  };
+  EXPECT_THAT(compared("change").value("error", ""), HasSubstr("there is one recording"));
+  std::ofstream weaker(folder_.path() / "own" / "uploads" / "visit2.csv");
+  weaker << "time_s,mouthSmileLeft,mouthSmileRight\n";
+  for (int k = 0; k <= 30; ++k) {
+    const double course = std::min(1.0, k / 15.0);
+    weaker << k / 30.0 << ',' << 0.8 * course << ',' << 0.3 * course << '\n';
+  }
+  weaker.close();
+  ASSERT_FALSE(ask("open", {{"what", "current"}, {"recording", "visit2.csv"}}).contains("error"));
+  EXPECT_EQ(event("scene")->head["earlier"], "smile_arkit.csv");
+  std::ofstream(folder_.path() / "mine" / "taken.html") << "not of the studio";
+  EXPECT_THAT(compared("taken").value("error", ""), HasSubstr("expected another name"));
+  const json answer = compared("change");
+  ASSERT_FALSE(answer.contains("error")) << answer;
+  EXPECT_THAT(answer["sentences"][0].get<std::string>(),
+              testing::AllOf(HasSubstr("Right corner of the mouth"), HasSubstr(" less ")));
+  const std::string page = read_file(folder_.path() / "mine" / "change.html");
+  EXPECT_THAT(page, HasSubstr("visit2.csv"));
+  EXPECT_EQ(page.find("uploads"), std::string::npos) << "the studio's own folder means nothing";
+  ask("undo");
+  EXPECT_EQ(event("scene")->head["earlier"], "") << "it is the present one again";
+}
+
 TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
   open();
   set({{"tissue.young_kpa", 151}}, 0);

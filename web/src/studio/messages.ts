@@ -94,6 +94,8 @@ export interface SceneNow {
   points: string[];
   drive: string;
   drive_why: string;
+  /** The recording before the present one; "": none. */
+  earlier: string;
   can_undo: boolean;
   can_redo: boolean;
   saved: boolean;

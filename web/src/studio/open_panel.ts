@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The open scene, and others to open: the embedded face, the file of the command line, files chosen or dropped.
 import { at, button, element } from '../page/dom';
+import { CompareRecordings } from './compare_recordings';
 import { Refused, type Connection } from './connection';
 import { isZip, kindOf } from './file_kinds';
 import type { Places } from './messages';
@@ -29,7 +30,9 @@ export class OpenPanel {
       this.picker.value = '';
     });
     const drop = element('p', words.drop, 'drop');
-    into.append(this.now, this.choices, this.problem, drop, this.picker);
+    into.append(this.now, this.choices, this.problem);
+    new CompareRecordings(state, connection, into);
+    into.append(drop, this.picker);
     at('banner').after(this.rescue);
     state.sceneChanged.add(() => (this.now.textContent = this.called()));
     // Called for the next face, or for the same one opened again.

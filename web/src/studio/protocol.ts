@@ -209,6 +209,23 @@ export interface FreeNameAnswer {
 export type DiscardAutosaveRequest = Record<string, never>;
 export type DiscardAutosaveAnswer = Record<string, never>;
 
+/**
+ * Compares the present recording with the one before as two visits of one person (docs/visits.md). Writes a
+ * page into the folder of the command line.
+ */
+export interface CompareVisitsRequest {
+  /** what was performed */
+  expression: 'smile' | 'show teeth' | 'pucker' | 'mouth open' | 'brow raise' | 'eye closure';
+  /** of the file, without its ending */
+  name: string;
+}
+export interface CompareVisitsAnswer {
+  /** of the page */
+  path: string;
+  /** what has changed, sentences */
+  sentences: unknown;
+}
+
 /** Writes into the folder of the command line. Never replaces a file that this session did not write. */
 export interface SaveRequest {
   /**
@@ -254,6 +271,8 @@ export interface SceneEvent {
   drive: string;
   /** a sentence */
   drive_why: string;
+  /** the recording before the present one, which compare_visits takes; empty: none */
+  earlier: string;
   /** whether there is a change to undo */
   can_undo: boolean;
   /** whether there is a change to redo */
@@ -410,6 +429,7 @@ export interface Requests {
   live_take: { fields: LiveTakeRequest; answer: LiveTakeAnswer };
   free_name: { fields: FreeNameRequest; answer: FreeNameAnswer };
   discard_autosave: { fields: DiscardAutosaveRequest; answer: DiscardAutosaveAnswer };
+  compare_visits: { fields: CompareVisitsRequest; answer: CompareVisitsAnswer };
   save: { fields: SaveRequest; answer: SaveAnswer };
 }
 

@@ -253,6 +253,13 @@ const en = {
   startedWith: (name: string) => `Open ${name} again`,
   chooseFiles: 'Choose files…',
   drop: 'Or drop anywhere: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML). A recording alone moves the face that is open.',
+  compareTitle: (earlier: string) => `Before this recording, ${earlier} moved the face. If both are of one person:`,
+  comparePerformed: 'What was performed',
+  compareGo: 'What has changed?',
+  compareSaved: (path: string) => `All measures, faces and curves: ${path} (opens in a browser).`,
+  expressions: {
+    smile: 'Smile', 'show teeth': 'Show teeth', pucker: 'Pucker', 'mouth open': 'Mouth open', 'brow raise': 'Brow raise', 'eye closure': 'Eye closure',
+  } as Record<string, string>,
   uploading: (name: string) => `Reading ${name}`,
   opening: 'Opening',
   autosave: (title: string, when: Date) =>
