@@ -14,6 +14,8 @@
 #include "hyperex/session/log_note.hpp"
 #include "hyperex/session/remarks_json.hpp"
 #include "hyperex/session/variants.hpp"
+#include "hyperex/uncertainty/budget_outputs.hpp"
+#include "hyperex/uncertainty/face_budget.hpp"
 #include "meshes.hpp"
 #include "obstacles.hpp"
 #include "performance.hpp"
@@ -98,6 +100,22 @@ class PythonSession {
     const session::Value own = session::Value::from_json(json_of(value));
     const py::gil_scoped_release unlocked;
     session_.set(key, own);
+  }
+
+  py::object error_budget(py::object progress, py::object cancelled) {
+    Callbacks callbacks(std::move(progress), std::move(cancelled));
+    nlohmann::ordered_json out;
+    try {
+      const py::gil_scoped_release unlocked;
+      session_.run({.progress = {}, .cancelled = callbacks.for_run().cancelled});
+      session_.find_certainty(callbacks.for_run().cancelled);
+      out = uncertainty::budget_json(uncertainty::face_budget(session_, callbacks.for_run()));
+    } catch (const simulate::Cancelled&) {
+      callbacks.rethrow_if_any();
+      throw;
+    }
+    callbacks.rethrow_if_any();
+    return loaded(out);
   }
 
   SharedTissueMesh mesh() const {
@@ -225,6 +243,10 @@ SessionClass bind_session(py::module_& m) {
       .def(
           "measures", [](S& s) { return s.run(py::none(), py::none()).result.measures(); },
           "SymmetryMeasures of the last run, likewise.")
+      .def("error_budget", &S::error_budget, "progress"_a = py::none(), "cancelled"_a = py::none(),
+           "How certain the excursions of the corners of the mouth are, in base and in all "
+           "variants, with all errors (docs/uncertainty.md): what `error_budget` of summary.json "
+           "has, as a dict. Runs the face some twelve times more.")
       .def(
           "notes", [](const S& s) { return s.session().notes(); },
           "What was assumed, repaired and found so far: a list of Note.")

@@ -20,6 +20,7 @@
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
+#include "hyperex/metrics/repetition_floor.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -39,7 +40,7 @@ namespace fs = std::filesystem;
 
 struct SymmetryOptions {
   fs::path motion, rig, out, excursions, picture, map, map_ply, landmarks;
-  double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz;
+  double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz, repetition_mm = 0;
   double end_s = std::numeric_limits<double>::infinity();
   std::string unit, jitter_mm = "auto";
   std::vector<std::string> rigid_points;
@@ -261,6 +262,7 @@ void run(const SymmetryOptions& options) {
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
   metrics::add_pose_floors(
       all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
+  metrics::add_repetition_floor(all.excursions, options.repetition_mm);
   report(options, all, jitter, stabilised);
 }
 
@@ -309,6 +311,13 @@ void add_symmetry(CLI::App& program) {
                    "Jitter of the points (standard deviation per coordinate, mm), which sets the "
                    "noise floor. auto: for a run's folder the value in its summary.json, else "
                    "estimated from the fourth differences of the points in time; 0: exact points")
+      ->capture_default_str();
+  command
+      ->add_option("--repetition-mm", options->repetition_mm,
+                   "A person's own variation, which counts in the floor of a difference: 95 % of "
+                   "the differences between two performances are below this (mm). 0: the recording "
+                   "alone is judged; a posed smile after a week: 1.5")
+      ->check(CLI::Range(0.0, 20.0))
       ->capture_default_str();
   command
       ->add_option("--lowpass-hz", options->lowpass_hz,

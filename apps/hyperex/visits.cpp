@@ -26,8 +26,11 @@ struct VisitsOptions {
 
 void check_outputs_of(const VisitsOptions& options, const visits::VisitsFile& file) {
   std::vector<fs::path> inputs{options.file};
-  for (const visits::VisitEntry& visit : file.visits)
+  for (const visits::VisitEntry& visit : file.visits) {
     inputs.insert(inputs.end(), visit.recordings.begin(), visit.recordings.end());
+    for (const auto& scan : {visit.rest_scan, visit.peak_scan})
+      if (scan) inputs.insert(inputs.end(), {scan->file, scan->landmarks});
+  }
   check_outputs({options.out, options.table}, inputs);
   check_output_kinds({{options.out, {".html"}, "<!doctype html>", {"<title>Hyperex visits"}},
                       {options.table, {".csv"}, visits::kTableHeader}});

@@ -50,6 +50,19 @@ class FaceSessions(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3"):
             face.set("tissue.young_kpa", -3)
 
+    def test_error_budget(self):
+        session = hyperex.FaceSession(EXAMPLES / "demo.toml", {**COARSE, "mesh.layers": 2})
+        shares = []
+        budget = session.error_budget(progress=shares.append)
+        change = next(f for f in budget["corners_of_the_mouth"] if f.get("variant") and f["side"] == "R")
+        self.assertEqual(change["figure"], "change")
+        self.assertGreater(change["half_width_95_mm"], 0)
+        self.assertIn(change["largest_part"], change["parts_mm"])
+        self.assertTrue(budget["assumed"] and budget["sentences"])
+        self.assertEqual(shares, sorted(shares))
+        with self.assertRaises(hyperex.Cancelled):
+            session.error_budget(cancelled=lambda: True)
+
     def test_expected_error(self):
         face = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", {"drive.by": "muscles", **COARSE})
         face.run()

@@ -61,7 +61,8 @@ struct PairExcursion {
   /// How far an error of the head's pose may part the two excursions, 95 %; 0: no head pose was
   /// taken out, or it is known (pose_floor.hpp).
   double pose_floor_mm = 0;
-  bool undecided = false;  ///< the difference between the excursions is below floor_mm()
+  double repetition_floor_mm = 0;  ///< a person's own variation, 95 % (repetition_floor.hpp)
+  bool undecided = false;          ///< the difference between the excursions is below floor_mm()
   /// The excursion of the counterpart in the mirrored twin of the run (mesh_floor.hpp). In the
   /// twin, the other side carries out the motion of this side, so that on a mirrored mesh this
   /// would equal the excursion of this side. NaN without a twin.
@@ -69,10 +70,10 @@ struct PairExcursion {
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
 
   double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
-  /// The three floors together, as independent errors: the root of the sum of their squares.
+  /// All floors together, as independent errors: the root of the sum of their squares.
   double floor_mm() const {
-    return std::hypot(jitter_floor_mm, std::isnan(mesh_floor_mm) ? 0 : mesh_floor_mm,
-                      pose_floor_mm);
+    const double mesh_mm = std::isnan(mesh_floor_mm) ? 0 : mesh_floor_mm;
+    return std::hypot(std::hypot(jitter_floor_mm, mesh_mm), pose_floor_mm, repetition_floor_mm);
   }
   /// Sets `undecided` by the floors. Without any floor every difference is decided.
   void judge() { undecided = floor_mm() > 0 && !(std::abs(difference_mm()) >= floor_mm()); }

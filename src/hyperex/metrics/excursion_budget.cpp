@@ -15,6 +15,7 @@ ErrorBudget budget_of_difference(const PairExcursion& pair) {
   add(out, ErrorPart::jitter, pair.jitter_floor_mm);
   add(out, ErrorPart::head_pose, pair.pose_floor_mm);
   add(out, ErrorPart::mesh, pair.mesh_floor_mm);
+  add(out, ErrorPart::repetition, pair.repetition_floor_mm);
   return out;
 }
 

@@ -9,7 +9,7 @@ namespace hyperex::metrics {
 /// interval is floor_mm().
 ErrorBudget budget_of_difference(const PairExcursion& pair);
 
-/// "jitter", "head pose" or "mesh"; empty where no floor is known.
+/// "jitter", "head pose", "mesh" or "repetition"; empty where no floor is known.
 std::string largest_part_of(const PairExcursion& pair);
 
 }  // namespace hyperex::metrics

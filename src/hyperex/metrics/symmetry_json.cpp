@@ -37,6 +37,7 @@ Json pair_json(const PairExcursion& p) {
   json["jitter_floor_mm"] = p.jitter_floor_mm;
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
   json["pose_floor_mm"] = p.pose_floor_mm;
+  json["repetition_floor_mm"] = p.repetition_floor_mm;
   json["floor_mm"] = number(p.floor_mm());
   json["largest_part"] = largest_part_of(p);
   json["undecided"] = p.undecided;

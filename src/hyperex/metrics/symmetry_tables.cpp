@@ -82,21 +82,21 @@ void write_excursions_csv(const std::filesystem::path& file, const Excursions& e
   write_file_atomically(file, [&](std::ostream& stream) {
     stream << "point,excursion_R_mm,excursion_L_mm,excursion_ratio_R_L,path_R_mm,path_L_mm,"
               "path_ratio_R_L,peak_speed_R_mm_s,peak_speed_L_mm_s,peak_speed_ratio_R_L,"
-              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,pose_floor_mm,floor_"
-              "mm,decided,"
+              "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,pose_floor_mm,"
+              "repetition_floor_mm,floor_mm,decided,"
               "path_floor_mm,peak_speed_floor_mm_s,path_decided,peak_speed_decided,"
               "speed_correlation_decided\n";
     for (const PairExcursion& p : excursions.pairs)
-      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
+      fmt::print(stream, "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n",
                  p.name, field(p.right_side.excursion_mm), field(p.left_side.excursion_mm),
                  field(p.excursion_ratio), field(p.right_side.path_mm), field(p.left_side.path_mm),
                  field(p.path_ratio), field(p.right_side.peak_speed_mm_s),
                  field(p.left_side.peak_speed_mm_s), field(p.speed_ratio),
                  field(p.speed_correlation), field(p.difference_mm()), field(p.jitter_floor_mm),
-                 field(p.mesh_floor_mm), field(p.pose_floor_mm), field(p.floor_mm()),
-                 p.undecided ? 0 : 1, field(p.path_floor_mm), field(p.peak_speed_floor_mm_s),
-                 p.path_undecided ? 0 : 1, p.peak_speed_undecided ? 0 : 1,
-                 p.speed_correlation_undecided ? 0 : 1);
+                 field(p.mesh_floor_mm), field(p.pose_floor_mm), field(p.repetition_floor_mm),
+                 field(p.floor_mm()), p.undecided ? 0 : 1, field(p.path_floor_mm),
+                 field(p.peak_speed_floor_mm_s), p.path_undecided ? 0 : 1,
+                 p.peak_speed_undecided ? 0 : 1, p.speed_correlation_undecided ? 0 : 1);
   });
 }
 

@@ -199,6 +199,7 @@ struct OutputOptions {
   double symmetry_floor = 1e-6;
   double lowpass_hz = 6;    ///< cut-off for excursions, speeds and paths; 0: none
   double jitter_m = -1e-3;  ///< of the recorded points; below 0: estimated from the points
+  double repetition_m = 0;  ///< 95 % of the differences between two performances; 0: not counted
   face::SkinTone skin_tone = face::SkinTone::light;  ///< where a scan has no colours
 
   static constexpr const char* about = "What is written.";
@@ -224,6 +225,12 @@ struct OutputOptions {
              "noise floor of S(t) (docs/symmetry.md). Below 0: estimated from the fourth "
              "differences of the points in time.",
              {.unit = kMillimetres, .bounds = {-1e-3, 0.02}});
+    v.option(HX_MEMBER(repetition_m),
+             "A person's own variation, which counts in the floor of a difference between both "
+             "sides and in the error budget: 95 % of the differences between two performances are "
+             "below this. 0: the recording alone is judged. A posed smile after a week: 1.5 "
+             "(docs/symmetry.md).",
+             {.unit = kMillimetres, .bounds = {0, 0.02}});
     v.option(HX_MEMBER(lowpass_hz),
              "Cut-off frequency of the zero-phase low-pass filter for tracks of points "
              "with jitter (docs/symmetry.md). 0: no filter.",

@@ -34,6 +34,10 @@ constexpr double kOwnMemory = 0.03e9, kVertexMemory = 1.5e3, kNodeMemory = 120e3
 constexpr double kOwnSeconds = 0.7, kVertexSeconds = 5e-5;
 constexpr double kNodeSeconds = 6e-4, kFrameNodeSeconds = 8e-7, kWriteNodeSeconds = 6e-7;
 
+/// An error budget, relative to a run without outputs: twelve runs, of which five share the mesh
+/// and one is of the other law.
+constexpr double kBudgetRuns = 7;
+
 struct MeshSize {
   double nodes = 0, tets = 0, skin = 0;
 };
@@ -109,12 +113,17 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   // In single precision, of skin and nodes; twins keep the skin alone.
   cost.motion_bytes = 12 * faces * cost.frames * (mesh.skin + mesh.nodes);
   cost.memory_bytes = memory_of(mesh) + cost.motion_bytes;
+  if (output.error_budget) cost.memory_bytes += memory_of(mesh);  // of one more face at a time
   if (finite || scene.contact.any()) return cost;
   const double each_s = kFrameNodeSeconds * cost.frames * mesh.nodes;
   cost.variants_seconds = cost.variants * (0.3 * kNodeSeconds * mesh.nodes + each_s);
   cost.seconds = kOwnSeconds + kVertexSeconds * mesh.skin + kNodeSeconds * mesh.nodes + each_s +
                  cost.variants_seconds +
                  (output.vtu ? kWriteNodeSeconds * cost.frames * mesh.nodes / output.vtu_every : 0);
+  if (output.error_budget)
+    cost.budget_seconds =
+        kBudgetRuns * (kNodeSeconds * mesh.nodes + each_s + cost.variants_seconds);
+  cost.seconds += cost.budget_seconds;
   return cost;
 }
 
@@ -127,6 +136,8 @@ std::string sentence_of(const RunCost& cost) {
   text += fmt::format(", {} of memory", size_text(cost.memory_bytes));
   if (cost.seconds == 0) return text + "; its duration is not known in advance";
   text += fmt::format(", {} on two idle processors", time_text(cost.seconds));
+  if (cost.budget_seconds > 0)
+    text += fmt::format(", {} of them for the error budget", time_text(cost.budget_seconds));
   if (cost.variants > 0)
     text += fmt::format("; without {}, {} less (--no-variants)",
                         cost.variants == 1 ? "its variant" : "its variants",

@@ -22,6 +22,7 @@ struct RunCost {
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
   /// unknown, as at finite strain or with contact.
   double seconds = 0, variants_seconds = 0;
+  double budget_seconds = 0;  ///< part of output.error_budget in `seconds`; 0: none
 };
 
 /// `volume`: of the face, once it is meshed; null: its size is estimated from the area of the scan.

@@ -4,6 +4,7 @@
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
+#include "hyperex/metrics/repetition_floor.hpp"
 
 namespace hyperex::session {
 
@@ -23,6 +24,7 @@ metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inp
        }});
   all.no_mesh_floor = twin.why_not;
   metrics::add_pose_floors(all.excursions, inputs.pose_variance, scene.drive.gain);
+  metrics::add_repetition_floor(all.excursions, 1e3 * scene.output.repetition_m);
   if (twin.why_not.empty())
     metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
   return all;

@@ -20,7 +20,7 @@ using Json = nlohmann::ordered_json;
 /// Those that a run of a face has.
 constexpr std::array kParts = {ErrorPart::jitter,    ErrorPart::head_pose, ErrorPart::landmarks,
                                ErrorPart::mesh,      ErrorPart::muscles,   ErrorPart::inversion,
-                               ErrorPart::stiffness, ErrorPart::law};
+                               ErrorPart::stiffness, ErrorPart::law,       ErrorPart::repetition};
 
 std::string name_of(FigureKind kind) {
   if (kind == FigureKind::excursion) return "excursion";

@@ -92,7 +92,8 @@ std::vector<Place> places_of(const FaceExcursions& faces) {
   return out;
 }
 
-/// Jitter and the head's pose. One side has half of the jitter of a difference of two. Base and
+/// Jitter, the head's pose and repetition. One side has half of the jitter and of the repetition of
+/// a difference of two. Base and
 /// variant share the errors of the recording, which a changed face scales.
 void add_recording(const PairExcursion& base, const Place& place, double value_mm,
                    metrics::ErrorBudget& errors) {
@@ -106,6 +107,7 @@ void add_recording(const PairExcursion& base, const Place& place, double value_m
     share = side.excursion_mm > 0 ? std::pow(value_mm / side.excursion_mm, 2) : 0;
   errors.add(ErrorPart::jitter, share * std::pow(base.jitter_floor_mm / kWithin95, 2) / 2);
   errors.add(ErrorPart::head_pose, share * std::pow(side.pose_floor_mm / kWithin95, 2));
+  errors.add(ErrorPart::repetition, share * std::pow(base.repetition_floor_mm / kWithin95, 2) / 2);
 }
 
 /// Forces that are found from points act elsewhere than the true ones; where displacements drive,
@@ -205,8 +207,8 @@ class PerturbedRuns {
 
 }  // namespace
 
-FaceBudget face_budget(const session::FaceSession& session,
-                       const simulate::RunCallbacks& callbacks, Laws laws) {
+FaceBudget face_budget(const session::FaceSession& session, const simulate::RunCallbacks& callbacks,
+                       Laws laws) {
   const scene::Scene& scene = session.scene();
   const FaceExcursions own = excursions_of(session);
   auto faces = perturbed_faces(scene, session.inputs().landmarks);

@@ -8,6 +8,7 @@
 
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/motion/uncertain_pose.hpp"
+#include "hyperex/visits/scan_measures.hpp"
 
 namespace hyperex::visits {
 namespace {
@@ -137,13 +138,9 @@ Change change_between(const VisitValue& first, const VisitValue& now, const Scat
   return change;
 }
 
-MeasureOverVisits over_visits(const Measure& measure,
-                              const std::vector<std::vector<MeasuredFace>>& faces,
-                              double repetition_m) {
+MeasureOverVisits over_visits(const Measure& measure, const std::vector<VisitEstimates>& visits) {
   MeasureOverVisits out;
   out.measure = measure;
-  std::vector<VisitEstimates> visits;
-  for (const auto& visit : faces) visits.push_back(estimates_of(measure, visit, repetition_m));
   const Scatter scatter = scatter_of(visits);
   if (scatter.freedom >= kLeastFreedom) out.recorded_repetition = scatter.deviation();
   for (const VisitEstimates& visit : visits) {
@@ -179,13 +176,26 @@ Estimate estimate(const Measure& measure, const MeasuredFace& face, double repet
   return out;
 }
 
+MeasureOverVisits over_visits(const Measure& measure,
+                              const std::vector<std::optional<Estimate>>& visits) {
+  std::vector<VisitEstimates> each;
+  for (const auto& visit : visits) {
+    each.emplace_back();
+    if (visit && !std::isnan(visit->value)) each.back().each = {*visit};
+  }
+  return over_visits(measure, each);
+}
+
 Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>> faces) {
   Comparison out;
   out.file = file;
   out.faces = std::move(faces);
   out.repetition_m = file.repetition_m.value_or(kUsualRepetition_m);
   for (const Measure& measure : measures()) {
-    MeasureOverVisits one = over_visits(measure, out.faces, out.repetition_m);
+    std::vector<VisitEstimates> visits;
+    for (const auto& visit : out.faces)
+      visits.push_back(estimates_of(measure, visit, out.repetition_m));
+    MeasureOverVisits one = over_visits(measure, visits);
     out.repetition_measured = out.repetition_measured || one.recorded_repetition > 0;
     if (std::ranges::any_of(one.values, [](const auto& value) { return value.has_value(); }))
       out.measures.push_back(std::move(one));
@@ -206,7 +216,9 @@ Comparison compare_visits(const VisitsFile& file,
       if (progress) progress(done);
     }
   }
-  return compare(file, std::move(faces));
+  Comparison out = compare(file, std::move(faces));
+  add_scan_measures(out);
+  return out;
 }
 
 std::string words_of(Beyond beyond) {

@@ -61,6 +61,11 @@ struct MeasureOverVisits {
   double recorded_repetition = 0;
 };
 
+/// A measure whose value at each visit is known by itself; nothing: not measured. Its change has
+/// the interval of both estimates' errors.
+MeasureOverVisits over_visits(const Measure& measure,
+                              const std::vector<std::optional<Estimate>>& visits);
+
 struct Comparison {
   VisitsFile file;
   std::vector<std::vector<MeasuredFace>> faces;  ///< by visit and recording
@@ -77,7 +82,7 @@ struct Comparison {
 /// 1/n_k), t by Student for that many degrees of freedom, but at least that of the measurement.
 Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>> faces);
 
-/// Measures all recordings and compares the visits. `progress`: called with the number of
+/// Measures all recordings and scans and compares the visits. `progress`: called with the number of
 /// recordings measured. Throws InputError.
 Comparison compare_visits(const VisitsFile& file,
                           const std::function<void(std::size_t)>& progress = {});

@@ -135,7 +135,8 @@ class Reader {
 
   VisitEntry entry(const json& table, const std::string& prefix) {
     refuse_unknown(table, prefix,
-                   {"date", "recording", "recordings", "note", "jitter_mm", "end_s"});
+                   {"date", "recording", "recordings", "note", "jitter_mm", "end_s", "rest_scan",
+                    "rest_landmarks", "peak_scan", "peak_landmarks"});
     VisitEntry visit;
     const json date = table.value("date", json());
     visit.label = date.is_object() ? date.value("date or time", "") : text(prefix + "date", date);
@@ -148,7 +149,32 @@ class Reader {
     else if (!end.is_null())
       complain(prefix + "end_s", end, "a number above 0 (s)");
     read_recordings(table, prefix, visit);
+    visit.rest_scan = scan(table, prefix, "rest");
+    visit.peak_scan = scan(table, prefix, "peak");
     return visit;
+  }
+
+  /// The scan of a face at rest or at the peak, with its landmarks where they are given.
+  std::optional<VisitScan> scan(const json& table, const std::string& prefix,
+                                const std::string& when) {
+    const std::string key = when + "_scan", landmarks = when + "_landmarks";
+    if (!table.contains(key)) {
+      if (table.contains(landmarks))
+        complain(prefix + landmarks, nullptr, key + " beside it, the scan that they are of");
+      return std::nullopt;
+    }
+    VisitScan out{existing(prefix + key, table[key], "an existing scan (PLY, OBJ, STL, glTF)"), {}};
+    if (table.contains(landmarks))
+      out.landmarks = existing(prefix + landmarks, table[landmarks], "an existing file (.json)");
+    return out;
+  }
+
+  fs::path existing(const std::string& key, const json& value, const std::string& expected) {
+    const std::string name = text(key, value);
+    fs::path path = (out_.file.parent_path() / name).lexically_normal();
+    std::error_code error;
+    if (name.empty() || !fs::is_regular_file(path, error)) complain(key, value, expected);
+    return path;
   }
 
   void read_recordings(const json& table, const std::string& prefix, VisitEntry& visit) {

@@ -11,11 +11,19 @@
 
 namespace hyperex::visits {
 
+/// A scan of the face on that day.
+struct VisitScan {
+  std::filesystem::path file;
+  std::filesystem::path landmarks;  ///< empty: they are found on the scan
+};
+
 /// One appointment: what was recorded on that day.
 struct VisitEntry {
   std::string label;                              ///< its date, or another name
   std::string note;                               ///< "before injection"; may be empty
   std::vector<std::filesystem::path> recordings;  ///< one or more repetitions of the expression
+  std::optional<VisitScan> rest_scan = {};             ///< relaxed
+  std::optional<VisitScan> peak_scan = {};             ///< in the expression
   /// Standard deviation of a recorded coordinate where the user states it, m.
   std::optional<double> jitter_m;
   /// Samples after this time are left out, s.
@@ -41,6 +49,7 @@ struct VisitsFile {
 ///   [[visit]]
 ///   date = 2026-03-01
 ///   recordings = ["first.csv", "second.csv"]
+///   rest_scan = "neutral.ply"
 /// Paths are relative to the file. Throws InputError with a line for each mistake.
 VisitsFile read_visits(const std::filesystem::path& file);
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hyperex/metrics/excursion_budget.hpp"
+#include "hyperex/metrics/repetition_floor.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -48,6 +49,16 @@ TEST(ErrorBudget, OfADifferenceIsItsFloor) {
   pair.mesh_floor_mm = 1.2;
   EXPECT_EQ(largest_part_of(pair), "mesh");
   EXPECT_NEAR(budget_of_difference(pair).half_width_95(), 1.3, 1e-12);
+  Excursions all;
+  all.pairs = {pair};
+  all.pairs[0].left_side.excursion_mm = 1.4;
+  all.pairs[0].judge();
+  EXPECT_FALSE(all.pairs[0].undecided);
+  add_repetition_floor(all, 1.5);
+  EXPECT_TRUE(all.pairs[0].undecided);
+  EXPECT_EQ(largest_part_of(all.pairs[0]), "repetition");
+  EXPECT_NEAR(all.pairs[0].floor_mm(), std::hypot(1.3, 1.5), 1e-12);
+  EXPECT_NEAR(budget_of_difference(all.pairs[0]).half_width_95(), all.pairs[0].floor_mm(), 1e-12);
   EXPECT_EQ(largest_part_of({}), "");
 }
 

@@ -99,11 +99,11 @@ TEST_F(SymmetryTables, ExcursionsAreARowAPair) {
   EXPECT_EQ(read_file(file_),
             "point,excursion_R_mm,excursion_L_mm,excursion_ratio_R_L,path_R_mm,path_L_mm,"
             "path_ratio_R_L,peak_speed_R_mm_s,peak_speed_L_mm_s,peak_speed_ratio_R_L,"
-            "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,pose_floor_mm,floor_mm,"
-            "decided,"
+            "speed_correlation,difference_mm,jitter_floor_mm,mesh_floor_mm,pose_floor_mm,"
+            "repetition_floor_mm,floor_mm,decided,"
             "path_floor_mm,peak_speed_floor_mm_s,path_decided,peak_speed_decided,"
             "speed_correlation_decided\n"
-            "cheilion,2,4,0.5,4,8,0.5,5,20,0.25,,2,0,,0,0,1,0,0,1,1,1\n");
+            "cheilion,2,4,0.5,4,8,0.5,5,20,0.25,,2,0,,0,0,0,1,0,0,1,1,1\n");
 }
 
 TEST_F(SymmetryTables, SummaryCallsUndecidedWhatNoiseMayMake) {

@@ -76,6 +76,11 @@ TEST(RunCost, GrowsWithWhatARunWrites) {
   scene.variants.resize(2);
   EXPECT_GT(cost().variants_seconds, 0);
   EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("without its variants"));
+  const RunCost plain = cost();
+  scene.output.error_budget = true;
+  EXPECT_GT(cost().seconds, 2 * plain.seconds);
+  EXPECT_GT(cost().memory_bytes, 1.5 * plain.memory_bytes - plain.motion_bytes);
+  EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("of them for the error budget"));
   scene.model.strain = simulate::Strain::finite;
   EXPECT_EQ(cost().seconds, 0);
   EXPECT_THAT(sentence_of(cost()), testing::HasSubstr("not known in advance"));

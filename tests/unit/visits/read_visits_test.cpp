@@ -31,7 +31,8 @@ TEST_F(ReadVisits, HasEveryKey) {
   const VisitsFile file = read_visits(
       put("patient = \"P-017\"\nexpression = \"pucker\"\nrepetition_mm = 2\nunit = \"cm\"\n"
           "rigid_points = [\"nasion\"]\n[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n"
-          "note = \"before\"\njitter_mm = 0.2\nend_s = 1.5\n[[visit]]\ndate = \"later\"\n"
+          "note = \"before\"\njitter_mm = 0.2\nend_s = 1.5\nrest_scan = \"a.csv\"\n"
+          "peak_scan = \"a.csv\"\npeak_landmarks = \"a.csv\"\n[[visit]]\ndate = \"later\"\n"
           "recordings = [\"a.csv\", \"a.csv\"]\n"));
   EXPECT_EQ(file.patient, "P-017");
   EXPECT_EQ(file.expression.name, "pucker");
@@ -43,6 +44,11 @@ TEST_F(ReadVisits, HasEveryKey) {
   EXPECT_EQ(file.visits[0].note, "before");
   EXPECT_DOUBLE_EQ(file.visits[0].jitter_m.value(), 2e-4);
   EXPECT_EQ(file.visits[0].end_s, 1.5);
+  ASSERT_TRUE(file.visits[0].rest_scan && file.visits[0].peak_scan);
+  EXPECT_EQ(file.visits[0].rest_scan->file.filename(), "a.csv");
+  EXPECT_TRUE(file.visits[0].rest_scan->landmarks.empty());
+  EXPECT_EQ(file.visits[0].peak_scan->landmarks.filename(), "a.csv");
+  EXPECT_FALSE(file.visits[1].rest_scan);
   EXPECT_EQ(file.visits[1].label, "later");
   EXPECT_EQ(file.visits[1].recordings.size(), 2u);
   EXPECT_EQ(
@@ -63,6 +69,9 @@ TEST_F(ReadVisits, NamesWhatIsWrongAndWhere) {
               HasSubstr("visit[0].recording = \"none.csv\": expected an existing file"));
   EXPECT_THAT(refused("[[visit]]\ndate = \"x\"\n"), HasSubstr("either recording"));
   EXPECT_THAT(refused(visit + "end_s = 0\n"), HasSubstr("a number above 0 (s)"));
+  EXPECT_THAT(refused(visit + "rest_scan = \"none.ply\"\n"), HasSubstr("an existing scan"));
+  EXPECT_THAT(refused(visit + "rest_landmarks = \"a.csv\"\n"),
+              HasSubstr("rest_scan beside it, the scan that they are of"));
   EXPECT_THAT(refused(visit + visit), HasSubstr("a date that no other visit has"));
   EXPECT_THAT(refused("patient = \n"), HasSubstr("sound TOML"));
 }

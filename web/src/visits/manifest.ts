@@ -35,7 +35,7 @@ export interface Value {
 }
 
 export type Beyond = 'yes' | 'no' | 'cannot tell';
-export type Part = 'repetition' | 'jitter' | 'head pose' | 'axes';
+export type Part = 'repetition' | 'jitter' | 'head pose' | 'axes' | 'landmarks';
 
 export interface Change {
   value: number;

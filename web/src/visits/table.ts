@@ -7,7 +7,7 @@ import { changeFigure, grouped, valueFigure, type Figure } from './figures';
 import type { Change, Manifest, Measure, Part } from './manifest';
 
 const partWords: Record<Part, string> = {
-  repetition: 'repetition', jitter: 'tracking jitter', 'head pose': 'head pose', axes: 'axes of the face',
+  repetition: 'repetition', jitter: 'tracking jitter', 'head pose': 'head pose', axes: 'axes of the face', landmarks: 'landmarks on the scan',
 };
 
 function head(text: string | Node[], className = ''): HTMLTableCellElement {

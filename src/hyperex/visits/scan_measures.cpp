@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/scan_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "hyperex/core/within_95.hpp"
+#include "hyperex/metrics/asymmetry.hpp"
+#include "hyperex/metrics/fold_depth.hpp"
+#include "hyperex/metrics/nan.hpp"
+#include "hyperex/session/inputs.hpp"
+#include "hyperex/session/read_scan.hpp"
+
+namespace hyperex::visits {
+namespace {
+
+using metrics::FoldCut;
+using metrics::kNan;
+
+/// Of the cuts that have the value; NaN if none has.
+double mean_of(const std::array<FoldCut, 3>& cuts, double FoldCut::*value) {
+  double sum = 0;
+  int count = 0;
+  for (const FoldCut& cut : cuts)
+    if (!std::isnan(cut.*value)) {
+      sum += cut.*value;
+      ++count;
+    }
+  return count > 0 ? sum / count : kNan;
+}
+
+void add_fold(std::vector<ScanMeasure>& all, const std::string& key, const std::string& words,
+              bool at_peak, double FoldCut::*value) {
+  for (const bool left : {false, true})
+    all.push_back({key, words, left ? "L" : "R", "mm", at_peak,
+                   [=](const TriMesh& skin, const io::Landmarks& landmarks) {
+                     return mean_of(metrics::fold_cuts(skin, landmarks, left), value);
+                   }});
+}
+
+std::vector<ScanMeasure> all_scan_measures() {
+  std::vector<ScanMeasure> all;
+  all.push_back({"rest_asymmetry", "Face at rest: distance from its mirror image", "", "mm", false,
+                 [](const TriMesh& skin, const io::Landmarks& landmarks) {
+                   return metrics::rest_asymmetry(skin, landmarks).rest_rms_mm;
+                 }});
+  add_fold(all, "fold_rest_depth", "Fold from nose to mouth: depth at rest", false,
+           &FoldCut::depth_mm);
+  add_fold(all, "fold_depth", "Fold from nose to mouth: depth at the peak", true,
+           &FoldCut::depth_mm);
+  add_fold(all, "fold_outward", "Fold from nose to mouth: outward of nose and mouth, at the peak",
+           true, &FoldCut::outward_mm);
+  return all;
+}
+
+/// Of each visit the scans that it has.
+struct VisitScans {
+  std::optional<MeasuredScan> rest, peak;
+};
+
+}  // namespace
+
+const std::vector<ScanMeasure>& scan_measures() {
+  static const std::vector<ScanMeasure> all = all_scan_measures();
+  return all;
+}
+
+MeasuredScan read_visit_scan(const VisitScan& scan) {
+  scene::Scene scene;
+  scene.scan.source.file = scan.file;
+  scene.scan.landmarks = scan.landmarks;
+  session::Inputs in;
+  session::read_scan(scene, in);
+  io::Landmarks given = session::given_landmarks(scene);
+  if (given.empty()) given = session::find_landmarks(in.scan, "none are given", in.notes);
+  session::complete_landmarks(scene, given, in.scan, in);
+  return {std::move(in.scan.mesh), std::move(in.landmarks)};
+}
+
+Estimate estimate(const ScanMeasure& measure, const MeasuredScan& scan, double repetition_m) {
+  Estimate out;
+  out.value = measure.value(scan.skin, scan.landmarks);
+  if (std::isnan(out.value)) return out;
+  double squares = 0;
+  int count = 0;
+  std::mt19937 random(1);
+  std::normal_distribution<double> normal(0, kLandmark_m);
+  for (int draw = 0; draw < kLandmarkDraws; ++draw) {
+    io::Landmarks moved = scan.landmarks;
+    for (auto& [name, place] : moved)
+      place += Vec3::NullaryExpr([&](auto) { return normal(random); });
+    const double value = measure.value(scan.skin, moved);
+    if (std::isnan(value)) continue;
+    squares += std::pow(value - out.value, 2);
+    ++count;
+  }
+  if (count > 0) out.errors.add(metrics::ErrorPart::landmarks, squares / count, count);
+  out.errors.add(metrics::ErrorPart::repetition,
+                 std::pow(1e3 * repetition_m / (kWithin95 * std::sqrt(2.0)), 2));
+  return out;
+}
+
+void add_scan_measures(Comparison& comparison, const std::function<void()>& progress) {
+  std::vector<VisitScans> scans;
+  for (const VisitEntry& visit : comparison.file.visits) {
+    VisitScans& has = scans.emplace_back();
+    if (visit.rest_scan) has.rest = read_visit_scan(*visit.rest_scan);
+    if (visit.peak_scan) has.peak = read_visit_scan(*visit.peak_scan);
+  }
+  for (const ScanMeasure& measure : scan_measures()) {
+    std::vector<std::optional<Estimate>> found;
+    for (const VisitScans& visit : scans) {
+      const auto& scan = measure.at_peak ? visit.peak : visit.rest;
+      found.emplace_back();
+      if (scan) found.back() = estimate(measure, *scan, comparison.repetition_m);
+      if (progress) progress();
+    }
+    MeasureOverVisits one =
+        over_visits({measure.key, measure.words, measure.side, measure.unit, {}}, found);
+    if (std::ranges::any_of(one.values, [](const auto& value) { return value.has_value(); }))
+      comparison.measures.push_back(std::move(one));
+  }
+}
+
+}  // namespace hyperex::visits
