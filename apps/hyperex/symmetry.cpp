@@ -279,6 +279,34 @@ void add_surface_options(CLI::App& command, SymmetryOptions& options) {
       ->capture_default_str();
 }
 
+/// Options that say what is taken for noise.
+void add_noise_options(CLI::App& command, SymmetryOptions& options) {
+  command
+      .add_option("--floor", options.floor,
+                  "Least |xi_L - xi_R| that is resolved; S stops at its logarithm")
+      ->capture_default_str();
+  command
+      .add_option("--jitter-mm", options.jitter_mm,
+                  "Jitter of the points (standard deviation per coordinate, mm), which sets the "
+                  "noise floor. auto: for a run's folder the value in its summary.json, else "
+                  "estimated from the fourth differences of the points in time; 0: exact points")
+      ->capture_default_str();
+  command
+      .add_option("--repetition-mm", options.repetition_mm,
+                  "A person's own variation, which counts in the floor of a difference: 95 % of "
+                  "the differences between two performances are below this (mm). 0: the recording "
+                  "alone is judged; a posed smile after a week: 1.5")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  command
+      .add_option("--lowpass-hz", options.lowpass_hz,
+                  "Cut-off frequency (Hz) of the zero-phase low-pass filter for excursions, "
+                  "speeds and paths "
+                  "where there is jitter; 0: no filter")
+      ->check(CLI::Range(0.0, 100.0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_symmetry(CLI::App& program) {
@@ -302,30 +330,7 @@ void add_symmetry(CLI::App& program) {
                       "Write one row per pair of points (CSV) here");
   command->add_option("--picture", options->picture, "Write a plot (PNG) here");
   add_surface_options(*command, *options);
-  command
-      ->add_option("--floor", options->floor,
-                   "Least |xi_L - xi_R| that is resolved; S stops at its logarithm")
-      ->capture_default_str();
-  command
-      ->add_option("--jitter-mm", options->jitter_mm,
-                   "Jitter of the points (standard deviation per coordinate, mm), which sets the "
-                   "noise floor. auto: for a run's folder the value in its summary.json, else "
-                   "estimated from the fourth differences of the points in time; 0: exact points")
-      ->capture_default_str();
-  command
-      ->add_option("--repetition-mm", options->repetition_mm,
-                   "A person's own variation, which counts in the floor of a difference: 95 % of "
-                   "the differences between two performances are below this (mm). 0: the recording "
-                   "alone is judged; a posed smile after a week: 1.5")
-      ->check(CLI::Range(0.0, 20.0))
-      ->capture_default_str();
-  command
-      ->add_option("--lowpass-hz", options->lowpass_hz,
-                   "Cut-off frequency (Hz) of the zero-phase low-pass filter for excursions, "
-                   "speeds and paths "
-                   "where there is jitter; 0: no filter")
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+  add_noise_options(*command, *options);
   command
       ->add_option("--end-s", options->end_s,
                    "For points: leave out the samples after this time (s)")

@@ -155,8 +155,8 @@ void Session::find_budget(const std::function<bool()>& cancelled) {
   try {
     progress(0);
     face_->session().find_certainty(cancelled);
-    send_budget(uncertainty::face_budget(face_->session(),
-                                         {.progress = progress, .cancelled = cancelled}));
+    send_budget(
+        uncertainty::face_budget(face_->session(), {.progress = progress, .cancelled = cancelled}));
     budget_due_ = false;
   } catch (const simulate::Cancelled&) {
     return;

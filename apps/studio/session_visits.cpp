@@ -4,6 +4,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/visits/compare_visits.hpp"
 #include "hyperex/visits/summary.hpp"
@@ -30,7 +31,9 @@ std::string label_of(const scene::Scene& scene) {
 fs::path points_of(const scene::Scene& scene, const fs::path& written) {
   const fs::path file = recording_of(scene.motion);
   if (!file.empty() && file == scene.motion.source.file) return file;
-  motion::write_motion_csv(written, session::read_inputs(scene).motion.motion);
+  const session::FaceSession session(scene::Scene(scene),
+                                     {.certainty = session::Certainty::on_request});
+  motion::write_motion_csv(written, session.inputs().motion.motion);
   return written;
 }
 

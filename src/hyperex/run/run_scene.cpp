@@ -94,7 +94,8 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   double budget_s = 0;
   if (results.scene.output.error_budget) {
     Stopwatch watch;
-    const uncertainty::FaceBudget budget = uncertainty::face_budget(session, {.progress = {}, .cancelled = cancelled});
+    const uncertainty::FaceBudget budget =
+        uncertainty::face_budget(session, {.progress = {}, .cancelled = cancelled});
     uncertainty::write_budget_csv(directory / "error_budget.csv", budget);
     summary["error_budget"] = uncertainty::budget_json(budget);
     for (const std::string& sentence : uncertainty::corner_sentences(budget))

@@ -22,8 +22,8 @@ struct VisitEntry {
   std::string label;                              ///< its date, or another name
   std::string note;                               ///< "before injection"; may be empty
   std::vector<std::filesystem::path> recordings;  ///< one or more repetitions of the expression
-  std::optional<VisitScan> rest_scan = {};             ///< relaxed
-  std::optional<VisitScan> peak_scan = {};             ///< in the expression
+  std::optional<VisitScan> rest_scan = {};        ///< relaxed
+  std::optional<VisitScan> peak_scan = {};        ///< in the expression
   /// Standard deviation of a recorded coordinate where the user states it, m.
   std::optional<double> jitter_m;
   /// Samples after this time are left out, s.

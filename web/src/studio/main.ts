@@ -80,6 +80,7 @@ class Studio {
     this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));
     this.wireBar();
     this.wireServer();
+    this.wireWork();
     const { source, playback } = this.state;
     source.onChange((change) => {
       if (change === 'face') this.showFace();
@@ -151,6 +152,11 @@ class Studio {
       document.documentElement.dataset.shapeS = seconds.toFixed(3);
       document.documentElement.dataset.shapes = String(Number(document.documentElement.dataset.shapes ?? 0) + 1);
     });
+  }
+
+  /** What longer work reports. */
+  private wireWork(): void {
+    const { connection } = this;
     connection.on('budget', ({ figures, missing, jitter_known, text }) => {
       this.certainty.take({ figures: figures as BudgetFigure[], missing: missing as string[], jitterKnown: jitter_known, text });
       document.documentElement.dataset.budget = 'true';
