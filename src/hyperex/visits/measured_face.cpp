@@ -28,6 +28,16 @@ namespace {
 using metrics::kNan;
 const Vec3 kUnknown = Vec3::Constant(kNan);
 
+/// A sentence with the recording's file name in the place of its path, whose folders may name a
+/// patient.
+std::string with_file_name(std::string text, const std::string& path) {
+  const std::string name = fs::path(path).filename().string();
+  for (auto at = path.empty() ? std::string::npos : text.find(path); at != std::string::npos;
+       at = text.find(path, at + name.size()))
+    text.replace(at, path.size(), name);
+  return text;
+}
+
 /// The motion without head pose, and the pose's errors where it was taken out.
 motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
                                       MeasuredFace& face) {
@@ -40,9 +50,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
   } catch (const InputError& error) {
     if (!visits.rigid_points.empty()) throw;
     const auto* option = dynamic_cast<const motion::OptionError*>(&error);
-    face.remarks.push_back(
-        "head pose is not taken out and is in every figure: " +
-        (option ? option->sentence("rigid_points of the visits") : std::string(error.what())));
+    const std::string why =
+        option ? option->sentence("rigid_points of the visits") : std::string(error.what());
+    face.remarks.push_back("head pose is not taken out and is in every figure: " +
+                           with_file_name(why, motion.source));
   }
   return {.motion = motion,
           .pose_points = {},

@@ -101,6 +101,19 @@ TEST(MeasuredFace, JitterThatDoesNotShowIsUnknown) {
   EXPECT_NEAR(noisy.jitter_m, 3e-4, 0.5e-4);
 }
 
+TEST(MeasuredFace, RemarksNameTheFileWithoutItsFolders) {
+  motion::Motion corners = recording_of({});
+  corners.source = "/home/doctor/Jane Doe/smile.csv";
+  for (std::size_t p = 0; p < corners.names.size(); ++p)
+    if (p != 48 && p != 54) corners.names[p] = "own_" + std::to_string(p);
+  const MeasuredFace face = measure(corners, visits_of(1), 0.0, nullptr);
+  ASSERT_FALSE(face.remarks.empty());
+  EXPECT_THAT(face.remarks.front(), HasSubstr("head pose is not taken out"));
+  EXPECT_THAT(face.remarks.front(), HasSubstr("smile.csv"));
+  for (const std::string& remark : face.remarks)
+    EXPECT_EQ(remark.find("Jane"), std::string::npos) << remark;
+}
+
 TEST(MeasuredFace, AnotherSizeIsRemarked) {
   const MeasuredFace first = exact({});
   motion::Motion larger = recording_of({});

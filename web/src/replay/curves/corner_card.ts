@@ -25,7 +25,14 @@ function floorWords(replay: Replay, corners: Corners): string {
   const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : 'No jitter of the recording was weighed: none is stated, and none shows.';
   const verdict = undecided ? `Undecided: a difference of the sides below ${limit} cannot be told from ${made}.`
     : `The sides differ by more than ${made}, ${limit}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
-  return `${verdict} ${why}`;
+  return [verdict, why, filterWords(replay)].filter(Boolean).join(' ');
+}
+
+/** Figures are of filtered paths, the curve is not. */
+function filterWords(replay: Replay): string {
+  const hz = (replay.summary.symmetry as { lowpass_hz?: number } | undefined)?.lowpass_hz ?? 0;
+  return (replay.symmetry?.jitter_mm ?? 0) > 0 && hz > 0
+    ? `The figures are of paths without what is faster than ${hz} Hz; the curve is as measured, and its highest point may lie above them.` : '';
 }
 
 function meshFloorWhy(replay: Replay): string {
