@@ -23,7 +23,7 @@ Pair pair_of(const Range& range) {
 using Weights = std::vector<std::tuple<std::filesystem::path, std::string, double>>;
 
 Estimate estimated(const std::filesystem::path& scene, const Paths& recordings,
-                   const Names& stiffness, const Names& gains, const Paths& lying,
+                   const Names& stiffness, const Names& gains, const std::filesystem::path& lying,
                    const Weights& weights) {
   Request request{.recordings = recordings,
                   .stiffness = stiffness,
@@ -77,8 +77,8 @@ void bind_estimate(py::module_& m) {
           "json", [](const Estimate& self) { return as_json(self); },
           "Everything, as hyperex estimate --out writes it.");
   m.def("estimate", &estimated, "scene"_a, py::kw_only(), "recordings"_a = Paths(),
-        "stiffness"_a = Names(), "gains"_a = Names(), "lying"_a = Paths(), "weights"_a = Weights(),
-        Unlocked(),
+        "stiffness"_a = Names(), "gains"_a = Names(), "lying"_a = std::filesystem::path(),
+        "weights"_a = Weights(), Unlocked(),
         "As `hyperex estimate SCENE` (docs/uncertainty.md). `weights`: recording, landmark, kg.");
 }
 

@@ -35,7 +35,7 @@ estimate::HungWeight weight_of(const std::string& text) {
       last == std::string::npos || last == 0 ? last : text.rfind(':', last - 1);
   const auto grams =
       middle == std::string::npos ? std::nullopt : io::parse_number(text.substr(last + 1));
-  if (!grams || middle == last)
+  if (!grams || middle == last || middle == 0 || last == middle + 1)
     throw InputError(InputProblem{{}, 0, "--weight", text, "FILE:POINT:GRAMS"});
   return {text.substr(0, middle), text.substr(middle + 1, last - middle - 1), 1e-3 * *grams};
 }
@@ -45,8 +45,8 @@ void run(const EstimateOptions& options) {
   for (const std::string& text : options.weights) request.weights.push_back(weight_of(text));
   const scene::Scene scene = scene::read_scene(options.scene, options.overrides);
   std::vector<fs::path> inputs = run::files_named_by(scene);
-  for (const auto& files : {request.recordings, request.lying})
-    inputs.insert(inputs.end(), files.begin(), files.end());
+  inputs.insert(inputs.end(), request.recordings.begin(), request.recordings.end());
+  inputs.push_back(request.lying);
   for (const estimate::HungWeight& weight : request.weights) inputs.push_back(weight.recording);
   check_outputs({options.out}, inputs);
   check_output_kinds({{options.out, {".json"}, "{", {"\"findings\"", "\"model_error_scale\""}}});
@@ -82,13 +82,14 @@ void add_estimate(CLI::App& program) {
   command->add_option("--gain", options->request.gains,
                       "A muscle, or a branch of the facial nerve on one side, whose strength to "
                       "find: zyg_major_R, zygomatic_R; can be repeated");
-  command->add_option("--lying", options->request.lying,
-                      "A recording of the relaxed face, upright at first and lying face up later, "
-                      "or its landmarks while lying (.json): gravity is a known load, which tells "
-                      "how stiff the tissue is; can be repeated");
+  command->add_option(
+      "--lying", options->request.lying,
+      "Points of the relaxed face (CSV, TRC), upright in the first sample and lying "
+      "face up later: gravity is a known load, which tells how stiff the tissue "
+      "is");
   command->add_option("--weight", options->weights,
-                      "A recording of the relaxed face, without a weight at first and with one "
-                      "later that hangs from a landmark: FILE:POINT:GRAMS; can be repeated");
+                      "Points of the relaxed face, without a weight in the first sample and with "
+                      "one later that hangs from a landmark: FILE:POINT:GRAMS; can be repeated");
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated");
   command->add_option("--out", options->out, "Write everything here (.json)");
   command->footer(

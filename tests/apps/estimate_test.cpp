@@ -53,15 +53,21 @@ TEST_F(EstimateProgram, AnswersOrSaysWhatWouldHelp) {
 
 TEST_F(EstimateProgram, FindsTheStiffnessOfTheTissueUnderAKnownLoad) {
   // Lying face up: mouth and chin sink by 1.5 mm, and the head has turned.
-  io::Landmarks lying = good_landmarks();
+  const io::Landmarks upright = good_landmarks();
   const Eigen::AngleAxisd turn(-1.2, Vec3::UnitX());
-  for (auto& [name, place] : lying) {
+  motion::Motion lying;
+  lying.time_s = {0, 1};
+  lying.positions.assign(2, Points(Eigen::Index(upright.size()), 3));
+  for (const auto& [name, place] : upright) {
+    const auto row = Eigen::Index(lying.names.size());
     const auto number = face::ibug_number(name);
-    if (number && (*number >= 48 || *number <= 16)) place.z() -= 0.0015;
-    place = turn * place;
+    const bool sinks = number && (*number >= 48 || *number <= 16);
+    lying.names.push_back(name);
+    lying.positions[0].row(row) = place.transpose();
+    lying.positions[1].row(row) = (turn * (place - Vec3(0, 0, sinks ? 0.0015 : 0))).transpose();
   }
-  io::write_landmarks(in("lying.json"), lying, io::LengthUnit::millimetre);
-  Outcome outcome = call("estimate s.toml --lying lying.json --out o.json");
+  motion::write_motion_csv(in("lying.csv"), lying);
+  Outcome outcome = call("estimate s.toml --lying lying.csv --out o.json");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.out, HasSubstr("soft tissue: "));
   EXPECT_THAT(outcome.out, HasSubstr(" kPa"));
@@ -69,7 +75,7 @@ TEST_F(EstimateProgram, FindsTheStiffnessOfTheTissueUnderAKnownLoad) {
   const auto& young = json["findings"][0];
   EXPECT_EQ(young["kind"], "young_kpa");
   EXPECT_LT(young["value"], json["scenes_young_kpa"]) << "softer than the scene has it";
-  EXPECT_EQ(json["recordings"][1]["name"], "lying.json");
+  EXPECT_EQ(json["recordings"][1]["name"], "lying.csv");
 
   motion::write_motion_csv(in("again.csv"), motion::embedded_mouth_opening(good_landmarks()));
   outcome = call("estimate s.toml --weight again.csv:cheilion_R:20");
@@ -92,7 +98,9 @@ TEST_F(EstimateProgram, RefusesWhatCannotBeAsked) {
   motion::write_motion_csv(in("again.csv"), motion::embedded_mouth_opening(good_landmarks()));
   refused("--weight again.csv:cheilion_R:9000", "at most 500");
   refused("--weight again.csv:nowhere:20", "a landmark of the scan");
-  refused("--lying none.json", "none.json");
+  refused("--lying none.csv", "none.csv");
+  refused("--lying again.csv --recording again.csv", "is given twice");
+  refused("--weight :cheilion_R:20", "FILE:POINT:GRAMS");
   refused("--stiffness chek_L", "did you mean cheek_L?");
   refused("--stiffness cheek_L:cheek_L", "two different parts");
   refused("--stiffness tissue.region[0]", "which has 0");

@@ -4,6 +4,8 @@ import pathlib
 import tempfile
 import unittest
 
+import numpy as np
+
 import hyperex
 
 
@@ -31,13 +33,12 @@ class Estimate(unittest.TestCase):
         self.assertEqual(json.loads(estimate.json())["points"], estimate.points)
 
     def test_a_known_load_gives_the_stiffness_of_the_tissue(self):
-        lying = pathlib.Path(self.folder.name) / "lying.json"
-        face = hyperex.embedded_face()
-        points = {name: [1e3 * x for x in place] for name, place in face.landmarks.items()}
-        for number in range(48, 68):
-            points[f"ibug68_{number}"][2] -= 1.5
-        lying.write_text(json.dumps({"units": "mm", "points": points}))
-        estimate = hyperex.estimate(self.scene, lying=[lying], weights=[(lying, "cheilion_R", 0.02)])
+        lying = pathlib.Path(self.folder.name) / "lying.csv"
+        names = sorted(hyperex.embedded_face().landmarks)
+        rest = np.array([hyperex.embedded_face().landmarks[name] for name in names])
+        lower = [name in {f"ibug68_{number}" for number in range(48, 68)} for name in names]
+        hyperex.write_motion_csv(lying, hyperex.Motion([0, 1], names, [rest, rest - np.outer(lower, [0, 0, 0.0015])]))
+        estimate = hyperex.estimate(self.scene, lying=lying)
         young, = estimate.findings
         self.assertEqual((young.kind, young.name), ("young_kpa", "soft tissue"))
         self.assertLess(young.interval[0], young.value)

@@ -9,7 +9,7 @@ struct Assumptions {
   double log_ratio = 1.6, gain = 1;
   /// Of the logarithm of Young's modulus over the scene's, where known loads determine it.
   double log_young = 1.6;
-  double load_turn_rad = 0.1;  ///< of the direction of a known load, about each axis
+  double load_turn_rad = 0.1;  ///< of the direction of a known load, before and after
   /// Of the logarithm of the whole tissue's stiffness, relative to its support on the bones.
   double log_tissue = 0.5;
   /// Of a muscle's place: distance along the skin from where the template has it, m.

@@ -10,10 +10,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/within_95.hpp"
+#include "hyperex/estimate/further_recordings.hpp"
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/estimate/ratio_parts.hpp"
 #include "hyperex/face/ibug.hpp"
-#include "hyperex/io/landmarks.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 
@@ -65,7 +65,7 @@ Points places_of(const simulate::AlignedMotion& motion, const std::vector<std::s
 }
 
 Observation observed(const session::Inputs& in, const std::vector<std::string>& points,
-                     const std::string& name, std::vector<std::string>& remarks) {
+                     const std::string& name, bool under_load, std::vector<std::string>& remarks) {
   RecordingErrors errors;
   errors.jitter_m = in.jitter_m;
   if (errors.jitter_m <= 0) {
@@ -76,58 +76,9 @@ Observation observed(const session::Inputs& in, const std::vector<std::string>& 
   errors.head_shift_m = std::max(kLeastShift_m, 1e-3 * in.head_shift_uncertainty_mm / kWithin95);
   errors.head_turn_rad =
       std::max(kLeastTurn_rad, kDegree * in.head_turn_uncertainty_deg / kWithin95);
-  return observe(in.motion, points, errors, name);
+  return under_load ? observe_load(in.motion, points, errors, name)
+                    : observe(in.motion, points, errors, name);
 }
-
-/// The file of the recording: a further one is of the same kind.
-std::filesystem::path& recording_of(scene::MotionOptions& motion) {
-  for (auto* file : {&motion.recording, &motion.openface, &motion.arkit})
-    if (!file->empty()) return *file;
-  return motion.source.file;
-}
-
-/// Reads further recordings of a session's face. Its scan and landmarks are known.
-class FurtherRecordings {
- public:
-  explicit FurtherRecordings(const session::FaceSession& session) : scene_(session.scene()) {
-    scene_.given.scan = std::make_shared<const io::Scan>(session.scan());
-    scene_.given.landmarks = session.inputs().landmarks;
-    scene_.motion.source.embedded = false;
-  }
-  session::Inputs read(const fs::path& file) const {
-    scene::Scene other = scene_;
-    if (file.extension() == ".json")
-      other.given.motion = std::make_shared<const motion::Motion>(motion_to(file));
-    else
-      recording_of(other.motion) = file;
-    return session::read_inputs(other);
-  }
-
- private:
-  /// From the scan's landmarks to those of a file.
-  motion::Motion motion_to(const fs::path& file) const {
-    motion::Motion out;
-    out.time_s = {0, 1};
-    std::vector<Vec3> from, to;
-    for (const auto& [name, place] : io::read_landmarks(file)) {
-      const auto known = scene_.given.landmarks.find(name);
-      if (known == scene_.given.landmarks.end()) continue;
-      out.names.push_back(name);
-      from.push_back(known->second);
-      to.push_back(place);
-    }
-    out.positions = {points_of(from), points_of(to)};
-    return out;
-  }
-  static Points points_of(const std::vector<Vec3>& places) {
-    Points out(Eigen::Index(places.size()), 3);
-    for (std::size_t i = 0; i < places.size(); ++i)
-      out.row(Eigen::Index(i)) = places[i].transpose();
-    return out;
-  }
-
-  scene::Scene scene_;
-};
 
 KnownLoad load_of(const session::Inputs& in, const HungWeight& weight) {
   const auto refuse = [&](const std::string& key, const std::string& value,
@@ -142,10 +93,23 @@ KnownLoad load_of(const session::Inputs& in, const HungWeight& weight) {
   return hung_weight(in.landmarks, known->second, weight.mass_kg);
 }
 
-std::string name_of(scene::MotionOptions motion) {
-  const auto& file = recording_of(motion);
-  if (!file.empty()) return file.filename().string();
-  return "the embedded recording";
+std::vector<KnownLoad> loads_of(const session::Inputs& in, const Request& request) {
+  std::vector<KnownLoad> out;
+  if (!request.lying.empty()) out.push_back(lying_down(in.landmarks));
+  for (const HungWeight& weight : request.weights) out.push_back(load_of(in, weight));
+  return out;
+}
+
+/// Of expressions, then of known loads. Each counts as independent of the others.
+std::vector<fs::path> files_of(const Request& request) {
+  std::vector<fs::path> out = request.recordings;
+  if (!request.lying.empty()) out.push_back(request.lying);
+  for (const HungWeight& weight : request.weights) out.push_back(weight.recording);
+  for (std::size_t i = 0; i < out.size(); ++i)
+    if (std::find(out.begin(), out.begin() + std::ptrdiff_t(i), out[i]) !=
+        out.begin() + std::ptrdiff_t(i))
+      throw InputError(out[i], "is given twice: expected another recording");
+  return out;
 }
 
 /// From unknowns to what is printed.
@@ -244,23 +208,22 @@ Estimate estimate(const scene::Scene& scene, const Request& request) {
     question.ratios.push_back(ratio_of(session, asked));
   question.gains = request.gains;
   const FurtherRecordings reader(session);
-  std::vector<fs::path> files = request.recordings;
-  files.insert(files.end(), request.lying.begin(), request.lying.end());
-  for (const HungWeight& weight : request.weights) files.push_back(weight.recording);
+  const std::vector<fs::path> files = files_of(request);
+  const std::size_t expressions = request.recordings.size();
   std::vector<session::Inputs> others;
-  for (const fs::path& file : files) others.push_back(reader.read(file));
+  for (std::size_t i = 0; i < files.size(); ++i)
+    others.push_back(i < expressions ? reader.read(files[i]) : reader.read_points(files[i]));
   Estimate out;
   const session::Inputs& in = session.inputs();
-  for (std::size_t i = 0; i < request.lying.size(); ++i)
-    question.loads.push_back(lying_down(in.landmarks));
-  for (const HungWeight& weight : request.weights) question.loads.push_back(load_of(in, weight));
+  question.loads = loads_of(in, request);
   out.scenes_young_kpa = 1e-3 * session.options(0).tissue.uniform[tissue::young];
   out.points = observed_points(session.scene(), in, others);
-  out.recordings.push_back(observed(in, out.points, name_of(scene.motion), out.remarks));
+  out.recordings.push_back(observed(in, out.points, name_of(scene.motion), false, out.remarks));
   for (std::size_t i = 0; i < others.size(); ++i) {
+    const bool under_load = i >= expressions;
     out.recordings.push_back(
-        observed(others[i], out.points, files[i].filename().string(), out.remarks));
-    out.recordings.back().load = std::max(-1, int(i) - int(request.recordings.size()));
+        observed(others[i], out.points, files[i].filename().string(), under_load, out.remarks));
+    if (under_load) out.recordings.back().load = int(i - expressions);
   }
   const auto face = [&] {
     const Progress progress("finding how the points follow the muscles", 0);

@@ -15,7 +15,7 @@ namespace hyperex::estimate {
 /// that hangs from its skin.
 struct HungWeight {
   std::filesystem::path recording;
-  std::string point;  ///< a landmark, or a point of the recording
+  std::string point;  ///< a landmark of the scan
   double mass_kg = 0;
 };
 
@@ -29,10 +29,10 @@ struct Request {
   /// part.
   std::vector<std::string> stiffness;
   std::vector<std::string> gains;  ///< "zygomatic_R", as muscles.gain
-  /// Known loads on the relaxed face; then the stiffness of its tissue is found too. Lying: the
-  /// first sample is upright, a later one lies face up. A file of landmarks (.json) is of the
-  /// lying face alone, and the scan's landmarks are upright.
-  std::vector<std::filesystem::path> lying;
+  /// Known loads on the relaxed face; then the stiffness of its tissue is found too. Points over
+  /// time, whose first sample is upright and later ones lie face up; empty: none. One recording of
+  /// each load: errors of the model are the same in another.
+  std::filesystem::path lying;
   std::vector<HungWeight> weights;
   Assumptions assumptions;
 };

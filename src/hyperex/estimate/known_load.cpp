@@ -26,12 +26,12 @@ Eigen::VectorXd shares_about(const tissue::TissueMesh& mesh, const Vec3& place) 
 
 KnownLoad lying_down(const io::Landmarks& landmarks) {
   const face::FaceFrame head = face::face_frame(landmarks);
-  return {KnownLoad::Kind::gravity, kGravity_m_s2 * (head.y - head.z), Vec3::Zero()};
+  return {KnownLoad::Kind::gravity, -kGravity_m_s2 * head.z, -kGravity_m_s2 * head.y, Vec3::Zero()};
 }
 
 KnownLoad hung_weight(const io::Landmarks& landmarks, const Vec3& place, double mass_kg) {
   const face::FaceFrame head = face::face_frame(landmarks);
-  return {KnownLoad::Kind::weight, -kGravity_m_s2 * mass_kg * head.y, place};
+  return {KnownLoad::Kind::weight, -kGravity_m_s2 * mass_kg * head.y, Vec3::Zero(), place};
 }
 
 Eigen::MatrixXd unit_forces_of(const KnownLoad& load, const tissue::TissueMesh& mesh,

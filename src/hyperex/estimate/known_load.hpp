@@ -16,8 +16,10 @@ struct KnownLoad {
     weight    ///< on a place of the skin
   };
   Kind kind = Kind::gravity;
-  Vec3 amount = Vec3::Zero();  ///< m/s^2 or N, in the scan's frame
-  Vec3 place = Vec3::Zero();   ///< of a weight, m
+  /// While it acts and before, m/s^2 or N, in the scan's frame. The load is the difference.
+  Vec3 after = Vec3::Zero(), before = Vec3::Zero();
+  Vec3 place = Vec3::Zero();  ///< of a weight, m
+  Vec3 amount() const { return after - before; }
 };
 
 /// The change from a head held upright, as at rest, to one that lies face up. `landmarks`:

@@ -13,6 +13,8 @@ namespace {
 constexpr double kNearPeak = 0.95;
 /// A recording that moves less has no expression.
 constexpr double kLeastMotion_m = 5e-4;
+/// Samples under a load: at least this share of the distance that is at this quantile.
+constexpr double kHeld = 0.8, kGreatest = 0.9;
 
 Eigen::VectorXd displacement(const motion::Motion& motion, const std::vector<int>& rows,
                              std::size_t sample) {
@@ -23,33 +25,70 @@ Eigen::VectorXd displacement(const motion::Motion& motion, const std::vector<int
   return out;
 }
 
+/// Of all samples: root mean square over the points, m.
+std::vector<double> distances(const motion::Motion& motion, const std::vector<int>& rows) {
+  std::vector<double> out;
+  for (std::size_t k = 0; k < motion.positions.size(); ++k)
+    out.push_back(displacement(motion, rows, k).norm() / std::sqrt(double(rows.size())));
+  return out;
+}
+
+std::vector<int> rows_of(const motion::Motion& motion, const std::vector<std::string>& points) {
+  std::vector<int> out;
+  for (const std::string& point : points) out.push_back(motion.index_of(point));
+  return out;
+}
+
+/// The mean over some samples.
+Observation mean_of(const motion::Motion& motion, const std::vector<int>& rows,
+                    const std::vector<std::size_t>& samples, const RecordingErrors& errors,
+                    const std::string& name) {
+  Observation out;
+  out.name = name;
+  out.displacement_m = Eigen::VectorXd::Zero(3 * Eigen::Index(rows.size()));
+  for (const std::size_t k : samples) out.displacement_m += displacement(motion, rows, k);
+  out.displacement_m /= double(samples.size());
+  out.noise_m = errors.jitter_m * std::sqrt(1 + 1 / double(samples.size()));
+  out.head_turn_rad = errors.head_turn_rad;
+  out.head_shift_m = errors.head_shift_m;
+  return out;
+}
+
 }  // namespace
 
 Observation observe(const simulate::AlignedMotion& recording,
                     const std::vector<std::string>& points, const RecordingErrors& errors,
                     const std::string& name) {
   const motion::Motion& motion = recording.motion;
-  std::vector<int> rows;
-  for (const std::string& point : points) rows.push_back(motion.index_of(point));
-  std::vector<double> moved;
-  for (std::size_t k = 0; k < motion.positions.size(); ++k)
-    moved.push_back(displacement(motion, rows, k).norm() / std::sqrt(double(rows.size())));
+  const std::vector<int> rows = rows_of(motion, points);
+  const std::vector<double> moved = distances(motion, rows);
   const auto peak = std::size_t(std::max_element(moved.begin(), moved.end()) - moved.begin());
   if (moved[peak] < kLeastMotion_m)
     throw InputError(name, "expected a recording in which the points move by 0.5 mm or more");
   std::size_t from = peak, to = peak;
   while (from > 1 && moved[from - 1] >= kNearPeak * moved[peak]) --from;
   while (to + 1 < moved.size() && moved[to + 1] >= kNearPeak * moved[peak]) ++to;
-  Observation out;
-  out.name = name;
-  out.displacement_m = Eigen::VectorXd::Zero(3 * Eigen::Index(rows.size()));
-  for (std::size_t k = from; k <= to; ++k) out.displacement_m += displacement(motion, rows, k);
-  const double samples = double(to - from + 1);
-  out.displacement_m /= samples;
+  std::vector<std::size_t> samples;
+  for (std::size_t k = from; k <= to; ++k) samples.push_back(k);
+  Observation out = mean_of(motion, rows, samples, errors, name);
   out.time_s = motion.time_s[peak] - motion.time_s.front();
-  out.noise_m = errors.jitter_m * std::sqrt(1 + 1 / samples);
-  out.head_turn_rad = errors.head_turn_rad;
-  out.head_shift_m = errors.head_shift_m;
+  return out;
+}
+
+Observation observe_load(const simulate::AlignedMotion& recording,
+                         const std::vector<std::string>& points, const RecordingErrors& errors,
+                         const std::string& name) {
+  const motion::Motion& motion = recording.motion;
+  const std::vector<int> rows = rows_of(motion, points);
+  const std::vector<double> moved = distances(motion, rows);
+  std::vector<double> sorted = moved;
+  std::sort(sorted.begin(), sorted.end());
+  const double greatest = sorted[std::size_t(kGreatest * double(sorted.size() - 1))];
+  std::vector<std::size_t> samples;
+  for (std::size_t k = 1; k < moved.size(); ++k)
+    if (moved[k] >= kHeld * greatest) samples.push_back(k);
+  Observation out = mean_of(motion, rows, samples, errors, name);
+  out.time_s = motion.time_s[samples[samples.size() / 2]] - motion.time_s.front();
   return out;
 }
 

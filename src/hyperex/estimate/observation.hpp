@@ -34,4 +34,11 @@ Observation observe(const simulate::AlignedMotion& recording,
                     const std::vector<std::string>& points, const RecordingErrors& errors,
                     const std::string& name);
 
+/// The recording while a known load acts: the mean over all samples whose distance from rest is at
+/// least four fifths of the greatest, which is the distance that a tenth of the samples exceed.
+/// What hardly moves counts too: it is stiff.
+Observation observe_load(const simulate::AlignedMotion& recording,
+                         const std::vector<std::string>& points, const RecordingErrors& errors,
+                         const std::string& name);
+
 }  // namespace hyperex::estimate

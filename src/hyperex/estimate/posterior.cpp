@@ -99,7 +99,7 @@ Eigen::MatrixXd Posterior::prior_precision(const Eigen::VectorXd& x) const {
     const Observation& seen = observations_[std::size_t(e)];
     set(u.head(e), 3, seen.head_turn_rad);
     set(u.head(e) + 3, 3, seen.head_shift_m);
-    set(u.load_turn(e), 3, a.load_turn_rad);
+    set(u.load_turn(e), 6, a.load_turn_rad);
   }
   return out;
 }

@@ -38,31 +38,39 @@ RecordingModel::RecordingModel(FaceModel& face, const Unknowns& unknowns, std::v
       loads_(std::move(loads)),
       head_(rigid_columns(face.places)) {}
 
+/// The load with its errors of direction.
+Vec3 RecordingModel::turned_load(const Eigen::VectorXd& x, Eigen::Index recording) const {
+  const KnownLoad& load = face_.loads[std::size_t(loads_[std::size_t(recording)])];
+  const Vec3 after = x.segment<3>(unknowns_.load_turn(recording)),
+             before = x.segment<3>(unknowns_.load_turn(recording) + 3);
+  return load.amount() + after.cross(load.after) - before.cross(load.before);
+}
+
 /// Displacement without the error of the head's pose.
 Eigen::VectorXd RecordingModel::under_load(const Eigen::VectorXd& x, Eigen::Index recording) const {
   const auto load = std::size_t(loads_[std::size_t(recording)]);
-  const Vec3 amount = face_.loads[load].amount;
-  const Vec3 turned = amount + Vec3(x.segment<3>(unknowns_.load_turn(recording))).cross(amount);
   return std::exp(x[unknowns_.tissue()] - x[unknowns_.young()]) *
-         (face_.responses.columns().loads[load] * turned);
+         (face_.responses.columns().loads[load] * turned_load(x, recording));
 }
 
 Eigen::MatrixXd RecordingModel::derivative_under_load(const Eigen::VectorXd& x,
                                                       Eigen::Index recording) {
   const auto load = std::size_t(loads_[std::size_t(recording)]);
-  const Vec3 amount = face_.loads[load].amount;
-  const Vec3 turn = x.segment<3>(unknowns_.load_turn(recording));
   const double softer = std::exp(x[unknowns_.tissue()] - x[unknowns_.young()]);
   const Eigen::VectorXd moved = under_load(x, recording);
   const Eigen::MatrixXd by_stiffness =
-      softer * face_.responses.by_stiffness(load, amount + turn.cross(amount));
+      softer * face_.responses.by_stiffness(load, turned_load(x, recording));
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(head_.rows(), unknowns_.all());
   out.leftCols(unknowns_.ratios) = by_stiffness.leftCols(unknowns_.ratios);
   out.col(unknowns_.tissue()) = by_stiffness.rightCols<1>() + moved;
   out.col(unknowns_.young()) = -moved;
-  for (int axis = 0; axis < 3; ++axis)
-    out.col(unknowns_.load_turn(recording) + axis) =
-        softer * (face_.responses.columns().loads[load] * Vec3::Unit(axis).cross(amount));
+  const KnownLoad& known = face_.loads[load];
+  const Eigen::MatrixXd by_load = softer * face_.responses.columns().loads[load];
+  for (int axis = 0; axis < 3; ++axis) {
+    const Eigen::Index turn = unknowns_.load_turn(recording) + axis;
+    out.col(turn) = by_load * Vec3::Unit(axis).cross(known.after);
+    out.col(turn + 3) = -by_load * Vec3::Unit(axis).cross(known.before);
+  }
   out.middleCols<6>(unknowns_.head(recording)) = head_;
   return out;
 }

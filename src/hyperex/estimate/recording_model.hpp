@@ -11,7 +11,8 @@ namespace hyperex::estimate {
 ///
 /// Under a known load f the tissue's stiffness matrix is exp(y - t) K(t), with y = ln E / E_scene
 /// and t the same relative to the support: the points move by exp(t - y) C(t) R f, where C(t) are
-/// FaceResponses' columns of the load and R turns it by its error of direction.
+/// FaceResponses' columns of the load and R turns it, before and while it acts, by errors of
+/// direction.
 ///
 /// Muscles' forces are relative to the tissue's stiffness, so that y does not matter. With
 /// the activation a of a muscle, its gain g and the half h of MuscleOptions::half, its narrow band
@@ -29,6 +30,7 @@ class RecordingModel {
   const Unknowns& unknowns() const { return unknowns_; }
 
  private:
+  Vec3 turned_load(const Eigen::VectorXd& x, Eigen::Index recording) const;
   Eigen::VectorXd under_load(const Eigen::VectorXd& x, Eigen::Index recording) const;
   Eigen::MatrixXd derivative_under_load(const Eigen::VectorXd& x, Eigen::Index recording);
   Acting acting(const Eigen::VectorXd& x, Eigen::Index recording) const;

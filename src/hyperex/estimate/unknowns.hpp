@@ -22,12 +22,12 @@ struct Unknowns {
   Eigen::Index lines(int way) const { return asked() + 1 + way * muscles; }
   Eigen::Index shared() const { return asked() + 1 + 2 * muscles; }
 
-  Eigen::Index each() const { return muscles + 6 + 6 + 3; }
+  Eigen::Index each() const { return muscles + 6 + 6 + 6; }
   Eigen::Index activations(Eigen::Index recording) const { return shared() + recording * each(); }
   Eigen::Index jaw(Eigen::Index recording) const { return activations(recording) + muscles; }
   /// An error of the head's pose: a rotation (rad) about the middle of the points, and a shift (m).
   Eigen::Index head(Eigen::Index recording) const { return jaw(recording) + 6; }
-  /// An error of a known load's direction: a rotation, rad.
+  /// Errors of a known load's direction: a rotation of it while it acts and of it before, rad.
   Eigen::Index load_turn(Eigen::Index recording) const { return head(recording) + 6; }
   Eigen::Index all() const { return shared() + recordings * each(); }
 

@@ -40,7 +40,8 @@ std::string meaning(const Finding& f) {
   const std::string over = f.name.substr(0, slash);
   const std::string under =
       slash == std::string::npos ? "the scene has it" : f.name.substr(slash + 3) + " is";
-  if (f.kind == Finding::Kind::young) return "Young's modulus, the same everywhere";
+  if (f.kind == Finding::Kind::young)
+    return "Young's modulus, where the scene makes no part stiffer or softer";
   return above   ? fmt::format("{} is stiffer than {}", over, under)
          : below ? fmt::format("{} is softer than {}", over, under)
                  : "no difference is shown";

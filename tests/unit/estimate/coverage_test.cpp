@@ -96,7 +96,10 @@ TEST(Coverage, OfStiffnessUnderGravity) {
     std::mt19937 random(unsigned(draw) + 300);
     std::normal_distribution<double> normal;
     const double kpa = 20 * std::exp(0.35 * normal(random));
-    const Vec3 turned = 0.05 * Vec3::NullaryExpr([&](auto) { return normal(random); });
+    const auto drawn = [&] {
+      return Vec3(0.05 * Vec3::NullaryExpr([&](auto) { return normal(random); }));
+    };
+    const std::array<Vec3, 2> turned{drawn(), drawn()};
     auto seen = observations_of(patient, {"smile"}, points);
     // Of tissue and support alike, beside what the patient's tissue is relative to the support.
     seen.push_back(
@@ -108,7 +111,7 @@ TEST(Coverage, OfStiffnessUnderGravity) {
   }
   std::puts("| | inside | mean sigma | rms error | rms z | determined |");
   tally.print("ln of Young's modulus under gravity", patients);
-  EXPECT_GE(tally.inside, 0.9 * patients - 1);
+  EXPECT_GE(tally.inside, patients < 10 ? patients : 0.9 * patients - 1);
 }
 
 /// Tissue at finite strain, as the program does not assume it: a tenth of the patients.
@@ -117,7 +120,9 @@ TEST(Coverage, OfAnotherLaw) {
   const auto [ratio, gain] = tally({"smile", "pucker"}, patients, true);
   ratio.print("finite strain: ln of the ratio of the cheeks", patients);
   gain.print("finite strain: gain of zygomatic_R", patients);
-  for (const Tally& one : {ratio, gain}) EXPECT_GE(one.inside, 0.9 * patients - 1);
+  // Of a few all must be inside.
+  for (const Tally& one : {ratio, gain})
+    EXPECT_GE(one.inside, patients < 10 ? patients : 0.9 * patients - 1);
 }
 
 }  // namespace

@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <random>
 
 #include "hyperex/anatomy/register_face.hpp"
+#include "hyperex/core/within_95.hpp"
 #include "hyperex/estimate/standard_expressions.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/motion/stabilise.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "muscles/a_face.hpp"
 #include "support/finite_twin.hpp"
@@ -127,15 +130,17 @@ std::vector<Observation> observations_of(const Patient& patient,
   return out;
 }
 
-Observation lying_observation_of(const Patient& patient, double young_factor, const Vec3& turned,
+Observation lying_observation_of(const Patient& patient, double young_factor,
+                                 const std::array<Vec3, 2>& turned,
                                  const std::vector<std::string>& points) {
   const auto& face = truths_mesh().face;
   KnownLoad load = lying_down(face.landmarks);
   const Points places = places_of(points);
   FaceResponses responses(*face.mesh, face.landmarks, face.options, points, places, {}, {load});
   responses.set_stiffness(Eigen::VectorXd::Constant(1, std::log(patient.young_factor)));
-  load.amount += turned.cross(load.amount);
-  const Eigen::VectorXd moved = responses.columns().loads[0] * load.amount / young_factor;
+  load.before += turned[0].cross(load.before);
+  load.after += turned[1].cross(load.after);
+  const Eigen::VectorXd moved = responses.columns().loads[0] * load.amount() / young_factor;
   simulate::AlignedMotion motion;
   motion.motion.names = motion.common = points;
   motion.rest = places;
@@ -148,7 +153,18 @@ Observation lying_observation_of(const Patient& patient, double young_factor, co
   }
   std::mt19937 random(patient.seed + 1000);
   add_noise(motion.motion, patient.noise_m, random);
-  Observation out = observe(motion, points, {patient.noise_m, 2e-3, 2e-4}, "lying");
+  const Eigen::AngleAxisd turn(-std::numbers::pi / 2, Vec3::UnitX());
+  for (std::size_t k = 1; k < motion.motion.positions.size(); ++k)
+    motion.motion.positions[k] *= turn.toRotationMatrix().transpose();
+  const motion::StabilisedMotion steady = motion::stabilise(motion.motion);
+  motion.motion = steady.motion;
+  const auto greatest = [](const std::vector<double>& bounds) {
+    return *std::ranges::max_element(bounds) / kWithin95;
+  };
+  Observation out = observe_load(motion, points,
+                                 {patient.noise_m, greatest(steady.turn_uncertainty_rad),
+                                  greatest(steady.shift_uncertainty_m)},
+                                 "lying");
   out.load = 0;
   return out;
 }

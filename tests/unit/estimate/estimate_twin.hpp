@@ -2,6 +2,7 @@
 #pragma once
 // Patients whose tissue and muscles are known: muscles move a face on one mesh, the points are
 // recorded with noise, and the estimate on another mesh has to find what was changed.
+#include <array>
 #include <string>
 #include <vector>
 
@@ -44,9 +45,11 @@ std::vector<Observation> observations_of(const Patient& patient,
 
 /// What the points do, as the program observes it, while the patient lies face up. `young_factor`:
 /// of Young's modulus and of the support alike, relative to the scene's; beside
-/// patient.young_factor, which is relative to the support. `turned`: an error of the direction of
-/// gravity, rad about each axis.
-Observation lying_observation_of(const Patient& patient, double young_factor, const Vec3& turned,
+/// patient.young_factor, which is relative to the support. `turned`: errors of the direction of
+/// gravity upright and lying, rad about each axis. The head turns by 90 degrees, and its pose is
+/// taken out by the program.
+Observation lying_observation_of(const Patient& patient, double young_factor,
+                                 const std::array<Vec3, 2>& turned,
                                  const std::vector<std::string>& points);
 
 /// What the program knows of the face.

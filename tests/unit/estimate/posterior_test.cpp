@@ -77,17 +77,18 @@ TEST(RecordingModel, DerivativeUnderKnownLoadsIsThatOfFiniteDifferences) {
   x[u.tissue()] = 0.3;
   for (const Eigen::Index e : {1, 2}) {
     x[u.load_turn(e) + 1] = 0.1;
+    x[u.load_turn(e) + 3] = -0.05;
     const Eigen::MatrixXd analytic = model.derivative(x, e);
-    for (const Eigen::Index i :
-         {u.ratio(0), u.young(), u.tissue(), u.load_turn(e), u.load_turn(e) + 2, u.head(e) + 1}) {
+    for (const Eigen::Index i : {u.ratio(0), u.young(), u.tissue(), u.load_turn(e),
+                                 u.load_turn(e) + 2, u.load_turn(e) + 4, u.head(e) + 1}) {
       constexpr double h = 1e-5;
       Eigen::VectorXd more = x, less = x;
       more[i] += h;
       less[i] -= h;
       const Eigen::VectorXd numeric =
           (model.displacement(more, e) - model.displacement(less, e)) / (2 * h);
-      EXPECT_GT(numeric.norm(), 0) << i;
-      EXPECT_LT((analytic.col(i) - numeric).norm(), 1e-5 * numeric.norm()) << i;
+      EXPECT_EQ(numeric.norm() == 0, e == 2 && i == u.load_turn(e) + 4) << i;
+      EXPECT_LE((analytic.col(i) - numeric).norm(), 1e-5 * numeric.norm()) << i;
     }
     // Tissue and support twice as stiff together move by half.
     Eigen::VectorXd stiff = x;
@@ -119,14 +120,14 @@ TEST(KnownLoad, IsTheWeightOfTheTissueOrOfWhatHangsFromIt) {
       (total(unit_forces_of(lying, tissue, system.mass)) - mass_kg * Eigen::Matrix3d::Identity())
           .norm(),
       1e-9 * mass_kg);
-  EXPECT_NEAR(lying.amount.norm(), 9.81 * std::sqrt(2.0), 1e-9);
+  EXPECT_NEAR(lying.amount().norm(), 9.81 * std::sqrt(2.0), 1e-9);
   const auto& landmarks = mesh.face.landmarks;
-  EXPECT_GT(lying.amount.dot(landmarks.at("ibug68_27") - landmarks.at("ibug68_8")), 0) << "up";
-  EXPECT_LT(lying.amount.dot(landmarks.at("ibug68_30") - landmarks.at("ibug68_36")), 0) << "back";
+  EXPECT_GT(lying.amount().dot(landmarks.at("ibug68_27") - landmarks.at("ibug68_8")), 0) << "up";
+  EXPECT_LT(lying.amount().dot(landmarks.at("ibug68_30") - landmarks.at("ibug68_36")), 0) << "back";
   const KnownLoad weight = hung_weight(landmarks, landmarks.at("ibug68_48"), 0.02);
   const Eigen::MatrixXd hung = unit_forces_of(weight, tissue, system.mass);
   EXPECT_LT((total(hung) - Eigen::Matrix3d::Identity()).norm(), 1e-12);
-  EXPECT_NEAR(weight.amount.norm(), 0.02 * 9.81, 1e-12);
+  EXPECT_NEAR(weight.amount().norm(), 0.02 * 9.81, 1e-12);
   const Vec3 far = landmarks.at("ibug68_48") + Vec3(0, 0, 0.1);
   EXPECT_THROW(unit_forces_of(hung_weight(landmarks, far, 0.02), tissue, system.mass), InputError);
 }

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "hyperex/session/face_session.hpp"
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::estimate {
+
+/// Reads further recordings of a session's face, whose scan and landmarks are known.
+class FurtherRecordings {
+ public:
+  explicit FurtherRecordings(const session::FaceSession& session);
+  /// Of the same kind as the scene's, with its options. Throws InputError.
+  session::Inputs read(const std::filesystem::path& file) const;
+  /// Named points (CSV, TRC), of which the first sample is at rest. Of the scene's options for
+  /// motion those of the points alone count. Throws InputError.
+  session::Inputs read_points(const std::filesystem::path& file) const;
+
+ private:
+  scene::Scene scene_;
+};
+
+/// The name of the scene's recording.
+std::string name_of(scene::MotionOptions motion);
+
+}  // namespace hyperex::estimate
