@@ -4,6 +4,8 @@
 
 #include <fmt/format.h>
 
+#include <optional>
+
 #include "bind.hpp"
 #include "hyperex/estimate/words.hpp"
 
@@ -23,12 +25,12 @@ Pair pair_of(const Range& range) {
 using Weights = std::vector<std::tuple<std::filesystem::path, std::string, double>>;
 
 Estimate estimated(const std::filesystem::path& scene, const Paths& recordings,
-                   const Names& stiffness, const Names& gains, const std::filesystem::path& lying,
-                   const Weights& weights) {
+                   const Names& stiffness, const Names& gains,
+                   const std::optional<std::filesystem::path>& lying, const Weights& weights) {
   Request request{.recordings = recordings,
                   .stiffness = stiffness,
                   .gains = gains,
-                  .lying = lying,
+                  .lying = lying.value_or(""),
                   .weights = {},
                   .assumptions = {}};
   for (const auto& [recording, point, mass_kg] : weights)
@@ -77,7 +79,7 @@ void bind_estimate(py::module_& m) {
           "json", [](const Estimate& self) { return as_json(self); },
           "Everything, as hyperex estimate --out writes it.");
   m.def("estimate", &estimated, "scene"_a, py::kw_only(), "recordings"_a = Paths(),
-        "stiffness"_a = Names(), "gains"_a = Names(), "lying"_a = std::filesystem::path(),
+        "stiffness"_a = Names(), "gains"_a = Names(), "lying"_a = py::none(),
         "weights"_a = Weights(), Unlocked(),
         "As `hyperex estimate SCENE` (docs/uncertainty.md). `weights`: recording, landmark, kg.");
 }

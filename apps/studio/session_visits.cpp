@@ -22,19 +22,14 @@ fs::path recording_of(const scene::MotionOptions& motion) {
   return motion.source.file;
 }
 
-std::string label_of(const scene::Scene& scene) {
-  const fs::path file = recording_of(scene.motion);
-  return file.empty() ? "embedded" : file.filename().string();
-}
-
-/// A file of points: the recording itself, or what other kinds of recording move, written there.
-fs::path points_of(const scene::Scene& scene, const fs::path& written) {
-  const fs::path file = recording_of(scene.motion);
-  if (!file.empty() && file == scene.motion.source.file) return file;
-  const session::FaceSession session(scene::Scene(scene),
-                                     {.certainty = session::Certainty::on_request});
-  motion::write_motion_csv(written, session.inputs().motion.motion);
-  return written;
+/// A visit of what moves a face: its points, written into a file.
+visits::VisitEntry visit_of(const scene::Scene& scene, const session::Inputs& inputs,
+                            const fs::path& written) {
+  motion::write_motion_csv(written, inputs.motion.motion);
+  visits::VisitEntry visit;
+  visit.label = recording_of(scene.motion).filename().string();
+  visit.recordings = {written};
+  return visit;
 }
 
 }  // namespace
@@ -42,8 +37,10 @@ fs::path points_of(const scene::Scene& scene, const fs::path& written) {
 std::string Session::earlier_recording() const {
   if (!earlier_ || !face_) return "";
   const scene::Scene earlier = scene::read_scene_text(earlier_->text, earlier_->file);
-  return recording_of(earlier.motion) == recording_of(face_->scene().motion) ? ""
-                                                                             : label_of(earlier);
+  const fs::path file = recording_of(earlier.motion);
+  // The smiles that the studio brings are no patient's.
+  if (file.empty() || file == options_.folder / "smile_arkit.csv") return "";
+  return file == recording_of(face_->scene().motion) ? "" : file.filename().string();
 }
 
 json Session::compare_visits(const json& fields) {
@@ -62,15 +59,14 @@ json Session::compare_visits(const json& fields) {
   file.file = now_.file;
   file.patient = face_->scene().title;
   file.expression = *expression;
-  const scene::Scene earlier = scene::read_scene_text(earlier_->text, earlier_->file);
-  for (const scene::Scene& scene : {earlier, face_->scene()}) {
-    const std::string number = std::to_string(file.visits.size() + 1);
-    visits::VisitEntry visit;
-    visit.label = label_of(scene);
-    visit.recordings = {points_of(scene, options_.folder / ("visit_" + number + ".csv"))};
-    file.visits.push_back(visit);
-  }
-  file.unit = face_->scene().motion.unit;
+  if (face_->scene().output.repetition_m > 0)
+    file.repetition_m = face_->scene().output.repetition_m;
+  scene::Scene earlier = scene::read_scene_text(earlier_->text, earlier_->file);
+  earlier.kept = options_.kept;
+  const session::FaceSession before(scene::Scene(earlier),
+                                    {.certainty = session::Certainty::on_request});
+  file.visits = {visit_of(earlier, before.inputs(), options_.folder / "visit_1.csv"),
+                 visit_of(face_->scene(), face_->inputs(), options_.folder / "visit_2.csv")};
   const visits::Comparison compared = visits::compare_visits(file);
   visits::write_visits_page(path, compared);
   written_.push_back(path);

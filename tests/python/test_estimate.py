@@ -37,7 +37,7 @@ class Estimate(unittest.TestCase):
         names = sorted(hyperex.embedded_face().landmarks)
         rest = np.array([hyperex.embedded_face().landmarks[name] for name in names])
         lower = [name in {f"ibug68_{number}" for number in range(48, 68)} for name in names]
-        hyperex.write_motion_csv(lying, hyperex.Motion([0, 1], names, [rest, rest - np.outer(lower, [0, 0, 0.0015])]))
+        hyperex.write_motion_csv(lying, hyperex.Motion(names, [0, 1], [rest, rest - np.outer(lower, [0, 0, 0.0015])]))
         estimate = hyperex.estimate(self.scene, lying=lying)
         young, = estimate.findings
         self.assertEqual((young.kind, young.name), ("young_kpa", "soft tissue"))

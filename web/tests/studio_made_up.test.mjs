@@ -140,7 +140,7 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await box.locator('select').evaluate((select) => (select.value = 'brow raise'));
     await box.locator('button').evaluate((press) => press.click());
     await page.waitForFunction(() => document.querySelector('.compare-result .why'));
-    assert.match(await box.locator('.compare-result').textContent(), /brow raise: 4\.6 mm less.*\/mine\/Made-up-brow-raise\.html/i);
+    assert.match(await box.locator('.compare-result').textContent(), /brow raise: 4\.6 mm less.*\/mine\/visits-brow-raise\.html/i);
     session().faces[0].name = 'another scene';
     session().scene();
     await page.waitForFunction(() => !document.querySelector('.compare-result .why'));

@@ -17,6 +17,8 @@ constexpr double kLeastWidth_mm = 2, kGreatestWidth_mm = 20, kSmoothing_mm = 1;
 constexpr std::array kShares = {0.3, 0.5, 0.7};
 /// A shallower groove has no place. Triangles farther than kReach_mm from the fold are left out.
 constexpr double kLeastDepth_mm = 0.5, kReach_mm = 45;
+/// A profile that ends nearer, at a hole or at the border, is not measured.
+constexpr double kNeeded_mm = 20;
 
 /// A triangle seen from the front, mm.
 struct Seen {
@@ -115,7 +117,8 @@ std::array<FoldCut, 3> fold_cuts(const TriMesh& skin, const io::Landmarks& landm
     std::vector<double> height;
     for (double s = -kNoseSide_mm; s < kCheekSide_mm; s += kStep_mm)
       height.push_back(height_at(seen, wing + kShares[i] * along + s * across));
-    if (std::isnan(height.front())) {
+    const auto ends = std::ranges::find_if(height, [](double h) { return std::isnan(h); });
+    if (double(ends - height.begin()) * kStep_mm < kNoseSide_mm + kNeeded_mm) {
       out[i] = {kNan, kNan};
       continue;
     }

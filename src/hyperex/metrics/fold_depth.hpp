@@ -20,7 +20,7 @@ Groove groove_of(const std::vector<double>& height_mm, double step_mm);
 
 /// The fold from nose to mouth (nasolabial fold) where a cut crosses it.
 struct FoldCut {
-  /// NaN where the surface does not reach.
+  /// NaN where the surface has a hole, or ends less than 20 mm outwards.
   double depth_mm = 0;
   /// Of the deepest point from the line between the wing of the nose and the corner of the mouth,
   /// outwards; NaN where the groove is shallower than 0.5 mm.

@@ -93,8 +93,8 @@ std::vector<Place> places_of(const FaceExcursions& faces) {
 }
 
 /// Jitter, the head's pose and repetition. One side has half of the jitter and of the repetition of
-/// a difference of two. Base and
-/// variant share the errors of the recording, which a changed face scales.
+/// a difference of two. Base and variant share the errors of the recording, which a changed face
+/// scales.
 void add_recording(const PairExcursion& base, const Place& place, double value_mm,
                    metrics::ErrorBudget& errors) {
   if (place.kind == FigureKind::difference) {

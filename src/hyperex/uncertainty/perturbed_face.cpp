@@ -7,7 +7,7 @@
 #include <numbers>
 #include <random>
 
-#include "hyperex/face/same_place.hpp"
+#include "hyperex/face/landmark_errors.hpp"
 
 namespace hyperex::uncertainty {
 namespace {
@@ -32,22 +32,12 @@ PerturbedFace other_elements(const scene::Scene& scene, double factor) {
 
 PerturbedFace moved_landmarks(const scene::Scene& scene, io::Landmarks landmarks, int draw) {
   std::mt19937 random(unsigned(draw) + 1);
-  std::normal_distribution<double> normal(0, kLandmark_m);
-  // A place that has two names is one landmark.
-  const io::Landmarks before = landmarks;
-  for (auto& [name, place] : landmarks) {
-    const Vec3 moved = place + Vec3::NullaryExpr([&](auto) { return normal(random); });
-    const auto other = landmarks.find(face::other_name(name));
-    const bool twice = other != landmarks.end() && before.at(other->first) == before.at(name);
-    if (twice && other->first < name)
-      place = other->second;
-    else
-      place = moved;
-  }
+  landmarks = face::with_errors(std::move(landmarks), face::kLandmarkError_m, random);
   scene::Scene moved = scene;
   moved.given.landmarks = std::move(landmarks);
-  return {ErrorPart::landmarks, fmt::format("landmarks moved by {:g} mm", 1e3 * kLandmark_m),
-          std::move(moved), false};
+  return {ErrorPart::landmarks,
+          fmt::format("landmarks moved by {:g} mm", 1e3 * face::kLandmarkError_m), std::move(moved),
+          false};
 }
 
 /// Each line moved in a direction of its own, on both sides alike; each prior narrower or wider.

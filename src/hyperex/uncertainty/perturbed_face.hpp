@@ -9,10 +9,9 @@
 
 namespace hyperex::uncertainty {
 
-// How wrong a face may be, 1 sigma: a coordinate of each landmark (docs/landmarks.md), the line of
-// each muscle along the skin, the prior sigma of each activation (a factor), and the tissue's
-// stiffness relative to its support (a factor).
-inline constexpr double kLandmark_m = 1.5e-3, kMuscle_m = 2e-3, kReadiness = 1.5, kStiffness = 1.65;
+// How wrong a face may be, 1 sigma: the line of each muscle along the skin, the prior sigma of each
+// activation (a factor), and the tissue's stiffness relative to its support (a factor).
+inline constexpr double kMuscle_m = 2e-3, kReadiness = 1.5, kStiffness = 1.65;
 /// Of other meshes, relative to the face's.
 inline constexpr std::array kElementSizes = {0.92, 1.1, 1.2};
 inline constexpr int kLandmarkDraws = 3, kMuscleDraws = 4;

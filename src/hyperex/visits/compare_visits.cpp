@@ -6,6 +6,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hyperex/core/progress.hpp"
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/motion/uncertain_pose.hpp"
 #include "hyperex/visits/scan_measures.hpp"
@@ -217,7 +218,12 @@ Comparison compare_visits(const VisitsFile& file,
     }
   }
   Comparison out = compare(file, std::move(faces));
-  add_scan_measures(out);
+  if (const bool scans = std::ranges::any_of(
+          file.visits, [](const VisitEntry& visit) { return visit.rest_scan || visit.peak_scan; });
+      scans) {
+    const Progress searching("measuring scans", 0);
+    add_scan_measures(out);
+  }
   return out;
 }
 

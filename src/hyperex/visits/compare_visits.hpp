@@ -71,6 +71,7 @@ struct Comparison {
   std::vector<std::vector<MeasuredFace>> faces;  ///< by visit and recording
   std::vector<MeasureOverVisits> measures;       ///< those that some visit has
   double repetition_m = 0;
+  std::vector<std::string> scan_remarks;  ///< what was guessed of scans, sentences
   /// Whether the repetition is measured from the visits' own recordings, which takes three or more
   /// visits' recordings beyond the first of each visit.
   bool repetition_measured = false;

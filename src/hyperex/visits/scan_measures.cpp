@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/visits/scan_measures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "hyperex/core/within_95.hpp"
+#include "hyperex/face/landmark_errors.hpp"
 #include "hyperex/metrics/asymmetry.hpp"
 #include "hyperex/metrics/fold_depth.hpp"
-#include "hyperex/metrics/nan.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/read_scan.hpp"
 
@@ -16,18 +18,12 @@ namespace hyperex::visits {
 namespace {
 
 using metrics::FoldCut;
-using metrics::kNan;
 
-/// Of the cuts that have the value; NaN if none has.
+/// NaN where a cut lacks the value, so that the same cuts count at every visit.
 double mean_of(const std::array<FoldCut, 3>& cuts, double FoldCut::*value) {
   double sum = 0;
-  int count = 0;
-  for (const FoldCut& cut : cuts)
-    if (!std::isnan(cut.*value)) {
-      sum += cut.*value;
-      ++count;
-    }
-  return count > 0 ? sum / count : kNan;
+  for (const FoldCut& cut : cuts) sum += cut.*value;
+  return sum / double(cuts.size());
 }
 
 void add_fold(std::vector<ScanMeasure>& all, const std::string& key, const std::string& words,
@@ -66,7 +62,7 @@ const std::vector<ScanMeasure>& scan_measures() {
   return all;
 }
 
-MeasuredScan read_visit_scan(const VisitScan& scan) {
+MeasuredScan read_visit_scan(const VisitScan& scan, std::vector<std::string>& remarks) {
   scene::Scene scene;
   scene.scan.source.file = scan.file;
   scene.scan.landmarks = scan.landmarks;
@@ -75,6 +71,8 @@ MeasuredScan read_visit_scan(const VisitScan& scan) {
   io::Landmarks given = session::given_landmarks(scene);
   if (given.empty()) given = session::find_landmarks(in.scan, "none are given", in.notes);
   session::complete_landmarks(scene, given, in.scan, in);
+  for (const Note& note : in.notes)
+    remarks.push_back(fmt::format("{}: {}", scan.file.filename().string(), note.text));
   return {std::move(in.scan.mesh), std::move(in.landmarks)};
 }
 
@@ -85,12 +83,9 @@ Estimate estimate(const ScanMeasure& measure, const MeasuredScan& scan, double r
   double squares = 0;
   int count = 0;
   std::mt19937 random(1);
-  std::normal_distribution<double> normal(0, kLandmark_m);
   for (int draw = 0; draw < kLandmarkDraws; ++draw) {
-    io::Landmarks moved = scan.landmarks;
-    for (auto& [name, place] : moved)
-      place += Vec3::NullaryExpr([&](auto) { return normal(random); });
-    const double value = measure.value(scan.skin, moved);
+    const double value =
+        measure.value(scan.skin, face::with_errors(scan.landmarks, face::kLandmarkError_m, random));
     if (std::isnan(value)) continue;
     squares += std::pow(value - out.value, 2);
     ++count;
@@ -101,12 +96,12 @@ Estimate estimate(const ScanMeasure& measure, const MeasuredScan& scan, double r
   return out;
 }
 
-void add_scan_measures(Comparison& comparison, const std::function<void()>& progress) {
+void add_scan_measures(Comparison& comparison) {
   std::vector<VisitScans> scans;
   for (const VisitEntry& visit : comparison.file.visits) {
     VisitScans& has = scans.emplace_back();
-    if (visit.rest_scan) has.rest = read_visit_scan(*visit.rest_scan);
-    if (visit.peak_scan) has.peak = read_visit_scan(*visit.peak_scan);
+    if (visit.rest_scan) has.rest = read_visit_scan(*visit.rest_scan, comparison.scan_remarks);
+    if (visit.peak_scan) has.peak = read_visit_scan(*visit.peak_scan, comparison.scan_remarks);
   }
   for (const ScanMeasure& measure : scan_measures()) {
     std::vector<std::optional<Estimate>> found;
@@ -114,7 +109,6 @@ void add_scan_measures(Comparison& comparison, const std::function<void()>& prog
       const auto& scan = measure.at_peak ? visit.peak : visit.rest;
       found.emplace_back();
       if (scan) found.back() = estimate(measure, *scan, comparison.repetition_m);
-      if (progress) progress();
     }
     MeasureOverVisits one =
         over_visits({measure.key, measure.words, measure.side, measure.unit, {}}, found);

@@ -25,9 +25,8 @@ struct ScanMeasure {
 ///                nose and the corner of the mouth: where the fold runs
 const std::vector<ScanMeasure>& scan_measures();
 
-/// Error of a coordinate of a landmark on a scan, 1 sigma (docs/landmarks.md), and how often it is
-/// drawn to find what it makes of a measure.
-inline constexpr double kLandmark_m = 1.5e-3;
+/// How often the landmarks' error (face::kLandmarkError_m) is drawn to find what it makes of a
+/// measure.
 inline constexpr int kLandmarkDraws = 8;
 
 /// One scan with its landmarks, complete.
@@ -35,14 +34,14 @@ struct MeasuredScan {
   TriMesh skin;
   io::Landmarks landmarks;
 };
-/// Reads a scan and its landmarks, or finds them. Throws InputError.
-MeasuredScan read_visit_scan(const VisitScan& scan);
+/// Reads a scan and its landmarks, or finds them. `remarks`: what was guessed is added, sentences.
+/// Throws InputError.
+MeasuredScan read_visit_scan(const VisitScan& scan, std::vector<std::string>& remarks);
 
 /// The measure with its error: landmarks, and the person's own variation as of one point.
 Estimate estimate(const ScanMeasure& measure, const MeasuredScan& scan, double repetition_m);
 
-/// Measures the scans of all visits and adds the measures that some visit has. `progress`: called
-/// after each visit. Throws InputError.
-void add_scan_measures(Comparison& comparison, const std::function<void()>& progress = {});
+/// Measures the scans of all visits and adds the measures that some visit has. Throws InputError.
+void add_scan_measures(Comparison& comparison);
 
 }  // namespace hyperex::visits

@@ -78,8 +78,10 @@ std::vector<std::string> summary(const Comparison& comparison) {
 
 std::string repetition_sentence(const Comparison& comparison) {
   if (comparison.repetition_measured)
-    return "Repetition is measured: it is how far the recordings of one visit differ from each "
-           "other, for each measure.";
+    return fmt::format(
+        "Repetition is measured: it is how far the recordings of one visit differ from each other, "
+        "for each measure. Of scans it is taken to be {:.1f} mm.",
+        1e3 * comparison.repetition_m);
   const std::string figure = fmt::format(
       "95 % of the differences between two performances of an expression by one person are taken "
       "to be below {:.1f} mm",
@@ -91,7 +93,7 @@ std::string repetition_sentence(const Comparison& comparison) {
 }
 
 std::vector<std::string> remarks(const Comparison& comparison) {
-  std::vector<std::string> all;
+  std::vector<std::string> all = comparison.scan_remarks;
   for (const auto& visit : comparison.faces)
     for (const MeasuredFace& face : visit)
       for (const std::string& remark : face.remarks)

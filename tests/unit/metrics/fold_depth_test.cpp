@@ -61,6 +61,16 @@ TEST(FoldCuts, OfARealSmileAreAsDeepAsMeasuredBefore) {
       }
     return sum;
   };
+  // A hole over the right fold: nothing is known there.
+  TriMesh torn = rest.mesh;
+  const Vec3 hole = 0.5 * (at_rest.at("ibug68_31") + at_rest.at("ibug68_48")) + Vec3(-0.006, 0, 0);
+  Eigen::Index kept = 0;
+  for (Eigen::Index t = 0; t < torn.triangles.rows(); ++t)
+    if ((torn.points.row(torn.triangles(t, 0)).transpose() - hole).head<2>().norm() > 0.007)
+      torn.triangles.row(kept++) = torn.triangles.row(t);
+  torn.triangles.conservativeResize(kept, 3);
+  EXPECT_TRUE(std::isnan(fold_cuts(torn, at_rest, false)[1].depth_mm));
+  EXPECT_FALSE(std::isnan(fold_cuts(torn, at_rest, true)[1].depth_mm));
   const double before = mean_depth(rest.mesh, at_rest), after = mean_depth(smile.mesh, smiling);
   std::printf("rest %.2f mm, smile %.2f mm\n", before, after);
   EXPECT_NEAR(after, 3.83, 0.4);

@@ -191,15 +191,20 @@ TEST_F(StudioSession, ComparesARecordingWithTheOneBefore) {
     return ask("compare_visits", {{"expression", "smile"}, {"name", name}});
   };
   EXPECT_THAT(compared("change").value("error", ""), HasSubstr("there is one recording"));
-  std::ofstream weaker(folder_.path() / "own" / "uploads" / "visit2.csv");
-  weaker << "time_s,mouthSmileLeft,mouthSmileRight\n";
-  for (int k = 0; k <= 30; ++k) {
-    const double course = std::min(1.0, k / 15.0);
-    weaker << k / 30.0 << ',' << 0.8 * course << ',' << 0.3 * course << '\n';
-  }
-  weaker.close();
-  ASSERT_FALSE(ask("open", {{"what", "current"}, {"recording", "visit2.csv"}}).contains("error"));
-  EXPECT_EQ(event("scene")->head["earlier"], "smile_arkit.csv");
+  const auto drop = [&](const std::string& name, double left, double right) {
+    std::ofstream file(folder_.path() / "own" / "uploads" / name);
+    file << "time_s,mouthSmileLeft,mouthSmileRight\n";
+    for (int k = 0; k <= 30; ++k) {
+      const double course = std::min(1.0, k / 15.0);
+      file << k / 30.0 << ',' << left * course << ',' << right * course << '\n';
+    }
+    file.close();
+    EXPECT_FALSE(ask("open", {{"what", "current"}, {"recording", name}}).contains("error"));
+  };
+  drop("visit1.csv", 0.8, 0.8);
+  EXPECT_EQ(event("scene")->head["earlier"], "") << "the studio's own smile is no patient's";
+  drop("visit2.csv", 0.8, 0.3);
+  EXPECT_EQ(event("scene")->head["earlier"], "visit1.csv");
   std::ofstream(folder_.path() / "mine" / "taken.html") << "not of the studio";
   EXPECT_THAT(compared("taken").value("error", ""), HasSubstr("expected another name"));
   const json answer = compared("change");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/face/landmark_errors.hpp"
 
 namespace hyperex::uncertainty {
 namespace {
@@ -74,7 +75,8 @@ TEST(PerturbedFace, LandmarksOfOnePlaceStayTogether) {
       coordinates += 3;
     }
   }
-  EXPECT_NEAR(std::sqrt(squares / coordinates), kLandmark_m, 0.1 * kLandmark_m);
+  EXPECT_NEAR(std::sqrt(squares / coordinates), face::kLandmarkError_m,
+              0.1 * face::kLandmarkError_m);
 }
 
 }  // namespace

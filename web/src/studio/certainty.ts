@@ -59,6 +59,8 @@ export class Certainty {
 
   private show(): void {
     const { state, budget } = this;
+    // The server drops the work with every change.
+    if (this.askedText !== null && this.askedText !== state.scene?.text) this.askedText = null;
     const known = budget !== null && budget.text === state.scene?.text;
     this.ask.hidden = known || !state.scene;
     this.ask.disabled = this.waiting;

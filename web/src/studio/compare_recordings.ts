@@ -53,7 +53,7 @@ export class CompareRecordings {
     this.problem.hidden = true;
     this.result.replaceChildren();
     try {
-      const wanted = fileName(`${this.state.scene?.title || 'visits'} ${this.expression.value}`, '').replace(/\.$/, '');
+      const wanted = fileName(`visits ${this.expression.value}`, '').replace(/\.$/, '');
       const { name } = await this.connection.request('free_name', { name: wanted });
       const { path, sentences } = await this.connection.request('compare_visits', { expression: this.expression.value as Expression, name });
       this.text = text;
