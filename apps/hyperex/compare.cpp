@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numeric>
+#include <optional>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -17,8 +23,10 @@
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/landmark_errors.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/metrics/baseline.hpp"
+#include "hyperex/metrics/error_budget.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
 
@@ -37,6 +45,8 @@ Eigen::VectorXd distances(const CompareOptions& options, const ComparedSurfaces&
 struct Row {
   std::string region;
   metrics::DistanceStatistics statistics;
+  /// Of the mean: where the region lies depends on landmarks. Nothing for the whole surface.
+  std::optional<metrics::ErrorBudget> errors = {};
 };
 
 std::vector<Row> rows_of(const Eigen::VectorXd& distance, const metrics::Regions& regions) {
@@ -44,6 +54,30 @@ std::vector<Row> rows_of(const Eigen::VectorXd& distance, const metrics::Regions
   for (const metrics::Region& region : regions.regions)
     rows.push_back({region.name, metrics::statistics_of(distance, region.vertices)});
   return rows;
+}
+
+/// Adds what errors of the landmarks make of each region's mean.
+void add_errors(std::vector<Row>& rows, const Eigen::VectorXd& distance, const Points& rest,
+                const io::Landmarks& landmarks) {
+  constexpr int kDraws = 8;
+  std::map<std::string, std::vector<double>> squares;
+  std::mt19937 random(1);
+  for (int draw = 0; draw < kDraws; ++draw) {
+    const metrics::Regions moved =
+        metrics::regions_of(rest, face::with_errors(landmarks, face::kLandmarkError_m, random));
+    for (const Row& row : rows)
+      if (const metrics::Region* region = moved.find(row.region))
+        squares[row.region].push_back(std::pow(
+            metrics::statistics_of(distance, region->vertices).mean_mm - row.statistics.mean_mm,
+            2));
+  }
+  for (Row& row : rows)
+    if (const auto found = squares.find(row.region); found != squares.end()) {
+      const auto& all = found->second;
+      row.errors.emplace().add(metrics::ErrorPart::landmarks,
+                               std::accumulate(all.begin(), all.end(), 0.0) / double(all.size()),
+                               double(all.size()));
+    }
 }
 
 struct BaselineRows {
@@ -61,7 +95,10 @@ Json json_of(const metrics::DistanceStatistics& s) {
 
 void print_json(const std::vector<Row>& rows, const std::vector<BaselineRows>& baselines) {
   Json json;
-  for (const Row& row : rows) json[row.region] = json_of(row.statistics);
+  for (const Row& row : rows) {
+    json[row.region] = json_of(row.statistics);
+    if (row.errors) json[row.region]["mean_half_width_95_mm"] = row.errors->half_width_95();
+  }
   for (const BaselineRows& baseline : baselines)
     for (size_t i = 0; i < rows.size(); ++i) {
       Json& entry = json["baseline"][baseline.key][rows[i].region];
@@ -76,11 +113,18 @@ void print_table(const CompareOptions& options, const std::vector<Row>& rows,
                  const std::vector<BaselineRows>& baselines) {
   std::cout << (options.corresponding ? "Distance between corresponding vertices, mm\n"
                                       : "Distance from A to the closest point of B, mm\n");
-  std::cout << fmt::format("{:<10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9}\n", "region", "mean",
-                           "median", "rms", "p95", "max", "vertices");
-  for (const auto& [region, s] : rows)
-    std::cout << fmt::format("{:<10} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:9}\n", region,
-                             s.mean_mm, s.median_mm, s.rms_mm, s.p95_mm, s.max_mm, s.count);
+  const bool errors =
+      std::ranges::any_of(rows, [](const Row& row) { return row.errors.has_value(); });
+  std::cout << fmt::format("{:<10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9}{}\n", "region", "mean",
+                           "median", "rms", "p95", "max", "vertices", errors ? "  +- of mean" : "");
+  for (const auto& [region, s, error] : rows)
+    std::cout << fmt::format("{:<10} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:8.3f} {:9}{}\n", region,
+                             s.mean_mm, s.median_mm, s.rms_mm, s.p95_mm, s.max_mm, s.count,
+                             error ? fmt::format("  {:10.3f}", error->half_width_95()) : "");
+  if (errors)
+    std::cout
+        << "+-: 95 %, what landmarks 1.5 mm off make of a region's mean; the surfaces count as "
+           "exact\n";
   if (baselines.empty()) return;
   std::cout << "\nMeasured against (mean, mm; in brackets A's mean as a fraction of it)\n"
             << fmt::format("{:<23}", "");
@@ -140,7 +184,9 @@ void run(const CompareOptions& options) {
   if (const auto unknown = anatomy::unknown_landmarks(landmarks); !unknown.empty())
     std::cerr << anatomy::unknown_landmarks_note(unknown).text << '\n';
   const Eigen::VectorXd distance = distances(options, surfaces, surfaces.a.points);
-  const std::vector<Row> rows = rows_of(distance, regions);
+  std::vector<Row> rows = rows_of(distance, regions);
+  if (!landmarks.empty())
+    add_errors(rows, distance, surfaces.rest.points.topRows(surfaces.scored), landmarks);
   std::vector<BaselineRows> baselines;
   if (options.baseline)
     for (const auto& baseline : metrics::baselines(surfaces.rest, surfaces.b.points, landmarks))

@@ -90,6 +90,24 @@ TEST_F(Program, TellsWhichUnitItTookForEachFile) {
   EXPECT_THAT(call("compare a.ply b.ply --unit mm --json").err, "");
 }
 
+/// The lips of a real smile move by 9 mm, which falls off around them.
+TEST_F(Program, SaysWhatErrorsOfLandmarksMakeOfARegionsMean) {
+  const std::filesystem::path data =
+      std::filesystem::path(HYPEREX_SHARED_DIR) / "data/real/spacetime";
+  if (!std::filesystem::exists(data)) GTEST_SKIP() << "the real smile is not here";
+  const std::string neutral = (data / "neutral.ply").string();
+  const Outcome found = call("compare --corresponding --rest " + neutral + " " + neutral + " " +
+                             (data / "smile.ply").string() + " --landmarks " +
+                             (data / "landmarks.json").string() + " --json");
+  ASSERT_EQ(found.status, 0) << found.err;
+  const auto json = nlohmann::json::parse(found.out);
+  const double lips = json["lips"]["mean_half_width_95_mm"],
+               face = json["face"]["mean_half_width_95_mm"];
+  EXPECT_GT(lips, 0.05);
+  EXPECT_LT(lips, 0.6);
+  EXPECT_LT(face, lips);
+}
+
 TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
   write_sheet("rest.ply", 0);
   write_sheet("a.ply", 0.001, 3);
@@ -107,6 +125,9 @@ TEST_F(Program, ComparesByRegionsOfTheScanAtRest) {
   const auto json = nlohmann::json::parse(found.out);
   EXPECT_NEAR(json["face"]["mean_mm"].get<double>(), 4, 1e-4);
   EXPECT_NEAR(json["lips"]["p95_mm"].get<double>(), 4, 1e-4);
+  // Wherever the lips are, the distance is the same.
+  EXPECT_NEAR(json["lips"]["mean_half_width_95_mm"].get<double>(), 0, 1e-4);
+  EXPECT_FALSE(json["surface"].contains("mean_half_width_95_mm"));
   const auto& still = json["baseline"]["standing_still"]["face"];
   EXPECT_NEAR(still["mean_mm"].get<double>(), 5, 1e-4);
   EXPECT_NEAR(still["ratio_of_means"].get<double>(), 0.8, 1e-4);
