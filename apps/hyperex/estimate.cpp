@@ -53,7 +53,9 @@ void run(const EstimateOptions& options) {
   const estimate::Estimate found = estimate::estimate(scene, request);
   for (const std::string& remark : found.remarks) spdlog::warn("{}", remark);
   for (const estimate::Observation& seen : found.recordings)
-    std::cout << fmt::format("{}: peak at {:.2f} s\n", seen.name, seen.time_s);
+    std::cout << (seen.load < 0 ? fmt::format("{}: peak at {:.2f} s\n", seen.name, seen.time_s)
+                                : fmt::format("{}: {} samples under the load, from {:.2f} s\n",
+                                              seen.name, seen.samples, seen.time_s));
   std::cout << fmt::format("{} points; observed less modelled {:.2f} mm rms\n\n",
                            found.points.size(), 1e3 * found.rms_m);
   for (const std::string& sentence : estimate::sentences(found)) std::cout << sentence << '\n';
@@ -85,11 +87,12 @@ void add_estimate(CLI::App& program) {
   command->add_option(
       "--lying", options->request.lying,
       "Points of the relaxed face (CSV, TRC), upright in the first sample and lying "
-      "face up later: gravity is a known load, which tells how stiff the tissue "
+      "face up at the end: gravity is a known load, which tells how stiff the tissue "
       "is");
-  command->add_option("--weight", options->weights,
-                      "Points of the relaxed face, without a weight in the first sample and with "
-                      "one later that hangs from a landmark: FILE:POINT:GRAMS; can be repeated");
+  command->add_option(
+      "--weight", options->weights,
+      "Points of the relaxed face, without a weight in the first sample and with "
+      "one at the end that hangs from a landmark: FILE:POINT:GRAMS; can be repeated");
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated");
   command->add_option("--out", options->out, "Write everything here (.json)");
   command->footer(

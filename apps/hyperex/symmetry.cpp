@@ -279,6 +279,12 @@ void add_surface_options(CLI::App& command, SymmetryOptions& options) {
       ->capture_default_str();
 }
 
+/// Refuses "nan", which every comparison lets pass.
+std::string finite(const std::string& text) {
+  const auto value = io::parse_number(text);
+  return value && std::isfinite(*value) ? "" : text + ": expected a number";
+}
+
 /// Options that say what is taken for noise.
 void add_noise_options(CLI::App& command, SymmetryOptions& options) {
   command
@@ -296,6 +302,7 @@ void add_noise_options(CLI::App& command, SymmetryOptions& options) {
                   "A person's own variation, which counts in the floor of a difference: 95 % of "
                   "the differences between two performances are below this (mm). 0: the recording "
                   "alone is judged; a posed smile after a week: 1.5")
+      ->check(finite)
       ->check(CLI::Range(0.0, 20.0))
       ->capture_default_str();
   command
@@ -303,6 +310,7 @@ void add_noise_options(CLI::App& command, SymmetryOptions& options) {
                   "Cut-off frequency (Hz) of the zero-phase low-pass filter for excursions, "
                   "speeds and paths "
                   "where there is jitter; 0: no filter")
+      ->check(finite)
       ->check(CLI::Range(0.0, 100.0))
       ->capture_default_str();
 }

@@ -87,6 +87,12 @@ void print_excursions(const metrics::Excursions& excursions) {
         "excursions and speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter "
         "and, for excursions, the head's pose make\n",
         excursions.lowpass_hz);
+  if (const double mm = excursions.pairs.empty() ? 0 : excursions.pairs[0].repetition_floor_mm;
+      mm > 0)
+    std::cout << fmt::format(
+        "repetition: differences of excursions below {:.1f} mm are undecided, as stated; all "
+        "reasons together as the root of the sum of their squares\n",
+        mm);
 }
 
 void print_head_uncertainty(const motion::StabilisedMotion& steady) {

@@ -44,7 +44,7 @@ std::vector<std::string> Session::known_paths() const {
 }
 
 void Session::apply(const std::string& text) {
-  if (text != require_face().text()) budget_due_ = false;
+  if (text != now_.text) budget_due_ = false;
   if (require_face().set_text(text))
     refresh_live();
   else

@@ -6,6 +6,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/read_recording.hpp"
 #include "hyperex/visits/compare_visits.hpp"
 #include "hyperex/visits/summary.hpp"
 #include "hyperex/visits/visits_page.hpp"
@@ -22,10 +23,13 @@ fs::path recording_of(const scene::MotionOptions& motion) {
   return motion.source.file;
 }
 
-/// A visit of what moves a face: its points, written into a file.
-visits::VisitEntry visit_of(const scene::Scene& scene, const session::Inputs& inputs,
+/// A visit of what moves a face: its points as recorded, without head pose, written into a file.
+/// Not as they are aligned with the scan, which gives both visits the same face at rest.
+visits::VisitEntry visit_of(const scene::Scene& scene, session::Inputs inputs,
                             const fs::path& written) {
-  motion::write_motion_csv(written, inputs.motion.motion);
+  const motion::Motion recorded = session::read_motion(scene, session::Extent::full, inputs);
+  motion::write_motion_csv(
+      written, session::steady_motion(scene, recorded, session::Extent::full, inputs).motion);
   visits::VisitEntry visit;
   visit.label = recording_of(scene.motion).filename().string();
   visit.recordings = {written};
@@ -37,10 +41,11 @@ visits::VisitEntry visit_of(const scene::Scene& scene, const session::Inputs& in
 std::string Session::earlier_recording() const {
   if (!earlier_ || !face_) return "";
   const scene::Scene earlier = scene::read_scene_text(earlier_->text, earlier_->file);
-  const fs::path file = recording_of(earlier.motion);
+  const fs::path before = recording_of(earlier.motion), now = recording_of(face_->scene().motion);
   // The smiles that the studio brings are no patient's.
-  if (file.empty() || file == options_.folder / "smile_arkit.csv") return "";
-  return file == recording_of(face_->scene().motion) ? "" : file.filename().string();
+  for (const fs::path& file : {before, now})
+    if (file.empty() || file == options_.folder / "smile_arkit.csv") return "";
+  return before == now ? "" : before.filename().string();
 }
 
 json Session::compare_visits(const json& fields) {

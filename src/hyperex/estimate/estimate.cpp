@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
@@ -101,14 +102,16 @@ std::vector<KnownLoad> loads_of(const session::Inputs& in, const Request& reques
 }
 
 /// Of expressions, then of known loads. Each counts as independent of the others.
-std::vector<fs::path> files_of(const Request& request) {
+std::vector<fs::path> files_of(const scene::Scene& scene, const Request& request) {
   std::vector<fs::path> out = request.recordings;
   if (!request.lying.empty()) out.push_back(request.lying);
   for (const HungWeight& weight : request.weights) out.push_back(weight.recording);
-  for (std::size_t i = 0; i < out.size(); ++i)
-    if (std::find(out.begin(), out.begin() + std::ptrdiff_t(i), out[i]) !=
-        out.begin() + std::ptrdiff_t(i))
-      throw InputError(out[i], "is given twice: expected another recording");
+  std::set<fs::path> known;
+  if (const fs::path file = recording_of(scene.motion); !file.empty())
+    known.insert(fs::weakly_canonical(file));
+  for (const fs::path& file : out)
+    if (!known.insert(fs::weakly_canonical(file)).second)
+      throw InputError(file, "is given twice: expected another recording");
   return out;
 }
 
@@ -208,7 +211,7 @@ Estimate estimate(const scene::Scene& scene, const Request& request) {
     question.ratios.push_back(ratio_of(session, asked));
   question.gains = request.gains;
   const FurtherRecordings reader(session);
-  const std::vector<fs::path> files = files_of(request);
+  const std::vector<fs::path> files = files_of(session.scene(), request);
   const std::size_t expressions = request.recordings.size();
   std::vector<session::Inputs> others;
   for (std::size_t i = 0; i < files.size(); ++i)

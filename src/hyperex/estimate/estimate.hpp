@@ -11,8 +11,7 @@
 
 namespace hyperex::estimate {
 
-/// A recording whose first sample is of the relaxed upright face, and a later one with a weight
-/// that hangs from its skin.
+/// A recording of the relaxed upright face, at the end with a weight that hangs from its skin.
 struct HungWeight {
   std::filesystem::path recording;
   std::string point;  ///< a landmark of the scan
@@ -30,7 +29,7 @@ struct Request {
   std::vector<std::string> stiffness;
   std::vector<std::string> gains;  ///< "zygomatic_R", as muscles.gain
   /// Known loads on the relaxed face; then the stiffness of its tissue is found too. Points over
-  /// time, whose first sample is upright and later ones lie face up; empty: none. One recording of
+  /// time, upright in the first sample and lying face up at the end; empty: none. One recording of
   /// each load: errors of the model are the same in another.
   std::filesystem::path lying;
   std::vector<HungWeight> weights;

@@ -5,13 +5,17 @@ namespace hyperex::estimate {
 namespace {
 
 /// The file of the recording.
-std::filesystem::path& recording_of(scene::MotionOptions& motion) {
+std::filesystem::path& file_of(scene::MotionOptions& motion) {
   for (auto* file : {&motion.recording, &motion.openface, &motion.arkit})
     if (!file->empty()) return *file;
   return motion.source.file;
 }
 
 }  // namespace
+
+std::filesystem::path recording_of(scene::MotionOptions motion) {
+  return file_of(motion);
+}
 
 FurtherRecordings::FurtherRecordings(const session::FaceSession& session)
     : scene_(session.scene()) {
@@ -22,7 +26,7 @@ FurtherRecordings::FurtherRecordings(const session::FaceSession& session)
 
 session::Inputs FurtherRecordings::read(const std::filesystem::path& file) const {
   scene::Scene other = scene_;
-  recording_of(other.motion) = file;
+  file_of(other.motion) = file;
   return session::read_inputs(other);
 }
 
@@ -37,11 +41,13 @@ session::Inputs FurtherRecordings::read_points(const std::filesystem::path& file
     other.motion.rigid_points = scene_.motion.rigid_points;
   }
   other.time.end_s = 0;
+  other.drive.points.clear();
+  other.drive.all_points = true;  // the points that all recordings have are observed
   return session::read_inputs(other);
 }
 
 std::string name_of(scene::MotionOptions motion) {
-  const auto& file = recording_of(motion);
+  const std::filesystem::path file = recording_of(std::move(motion));
   if (!file.empty()) return file.filename().string();
   return "the embedded recording";
 }

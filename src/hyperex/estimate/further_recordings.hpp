@@ -22,7 +22,9 @@ class FurtherRecordings {
   scene::Scene scene_;
 };
 
-/// The name of the scene's recording.
+/// The file that moves a scene's face; empty for the embedded recording.
+std::filesystem::path recording_of(scene::MotionOptions motion);
+/// Its name.
 std::string name_of(scene::MotionOptions motion);
 
 }  // namespace hyperex::estimate

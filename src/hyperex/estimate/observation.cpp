@@ -13,8 +13,9 @@ namespace {
 constexpr double kNearPeak = 0.95;
 /// A recording that moves less has no expression.
 constexpr double kLeastMotion_m = 5e-4;
-/// Samples under a load: at least this share of the distance that is at this quantile.
-constexpr double kHeld = 0.8, kGreatest = 0.9;
+/// Of a recording under a load: this share of its samples, at the end, is under the load; samples
+/// that have gone this share of the way to there are too.
+constexpr double kEnding = 0.1, kHeld = 0.8;
 
 Eigen::VectorXd displacement(const motion::Motion& motion, const std::vector<int>& rows,
                              std::size_t sample) {
@@ -48,6 +49,7 @@ Observation mean_of(const motion::Motion& motion, const std::vector<int>& rows,
   out.displacement_m = Eigen::VectorXd::Zero(3 * Eigen::Index(rows.size()));
   for (const std::size_t k : samples) out.displacement_m += displacement(motion, rows, k);
   out.displacement_m /= double(samples.size());
+  out.samples = int(samples.size());
   out.noise_m = errors.jitter_m * std::sqrt(1 + 1 / double(samples.size()));
   out.head_turn_rad = errors.head_turn_rad;
   out.head_shift_m = errors.head_shift_m;
@@ -80,15 +82,17 @@ Observation observe_load(const simulate::AlignedMotion& recording,
                          const std::string& name) {
   const motion::Motion& motion = recording.motion;
   const std::vector<int> rows = rows_of(motion, points);
-  const std::vector<double> moved = distances(motion, rows);
-  std::vector<double> sorted = moved;
-  std::sort(sorted.begin(), sorted.end());
-  const double greatest = sorted[std::size_t(kGreatest * double(sorted.size() - 1))];
+  const std::size_t count = motion.positions.size();
+  const auto ending = std::size_t(std::ceil(kEnding * double(count - 1)));
+  std::vector<std::size_t> last;
+  for (std::size_t k = count - ending; k < count; ++k) last.push_back(k);
+  const Eigen::VectorXd end = mean_of(motion, rows, last, errors, name).displacement_m;
   std::vector<std::size_t> samples;
-  for (std::size_t k = 1; k < moved.size(); ++k)
-    if (moved[k] >= kHeld * greatest) samples.push_back(k);
+  for (std::size_t k = 1; k < count; ++k)
+    if (k + ending >= count || displacement(motion, rows, k).dot(end) >= kHeld * end.squaredNorm())
+      samples.push_back(k);
   Observation out = mean_of(motion, rows, samples, errors, name);
-  out.time_s = motion.time_s[samples[samples.size() / 2]] - motion.time_s.front();
+  out.time_s = motion.time_s[samples.front()] - motion.time_s.front();
   return out;
 }
 

@@ -15,6 +15,7 @@ struct Observation {
   /// Of the points from rest, x y z of each in turn, m.
   Eigen::VectorXd displacement_m;
   double time_s = 0;   ///< of the peak, from the first sample
+  int samples = 0;     ///< that the displacement is the mean of
   double noise_m = 0;  ///< 1 sigma of the error of a coordinate
   /// 1 sigma of the error of the head's pose: rad about each axis, m along each.
   double head_turn_rad = 0, head_shift_m = 0;
@@ -34,9 +35,9 @@ Observation observe(const simulate::AlignedMotion& recording,
                     const std::vector<std::string>& points, const RecordingErrors& errors,
                     const std::string& name);
 
-/// The recording while a known load acts: the mean over all samples whose distance from rest is at
-/// least four fifths of the greatest, which is the distance that a tenth of the samples exceed.
-/// What hardly moves counts too: it is stiff.
+/// The recording while a known load acts: the mean over the last tenth of its samples, in which the
+/// load acts, and over all that have gone four fifths of the way to there. What hardly moves counts
+/// too: it is stiff. time_s: of the first such sample.
 Observation observe_load(const simulate::AlignedMotion& recording,
                          const std::vector<std::string>& points, const RecordingErrors& errors,
                          const std::string& name);

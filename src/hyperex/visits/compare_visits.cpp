@@ -218,9 +218,7 @@ Comparison compare_visits(const VisitsFile& file,
     }
   }
   Comparison out = compare(file, std::move(faces));
-  if (const bool scans = std::ranges::any_of(
-          file.visits, [](const VisitEntry& visit) { return visit.rest_scan || visit.peak_scan; });
-      scans) {
+  if (has_scans(file)) {
     const Progress searching("measuring scans", 0);
     add_scan_measures(out);
   }

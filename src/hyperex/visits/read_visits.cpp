@@ -195,16 +195,24 @@ class Reader {
       if (!name.empty() && !fs::is_regular_file(path, error))
         complain(prefix + (table.contains("recordings") ? "recordings" : "recording"), name,
                  "an existing file (CSV or TRC)");
+      else if (!known_.insert(fs::weakly_canonical(path, error)).second)
+        complain(prefix + "recordings", name, "a recording that is not given before");
       visit.recordings.push_back(path);
     }
   }
 
   VisitsFile out_;
+  std::set<fs::path> known_;
   scene::TomlValues values_;
   std::vector<InputProblem> problems_;
 };
 
 }  // namespace
+
+bool has_scans(const VisitsFile& file) {
+  return std::ranges::any_of(
+      file.visits, [](const VisitEntry& visit) { return visit.rest_scan || visit.peak_scan; });
+}
 
 VisitsFile read_visits(const fs::path& file) {
   return Reader(file).read();

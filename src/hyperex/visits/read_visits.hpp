@@ -38,10 +38,13 @@ struct VisitsFile {
   /// 95 % of the differences between two performances of the expression by one person are below
   /// this, m; nothing: the default, or measured where visits have several recordings.
   std::optional<double> repetition_m;
-  std::optional<io::LengthUnit> unit;     ///< of recordings that do not state theirs
+  std::optional<io::LengthUnit> unit;     ///< of recordings that do not state theirs, and of scans
   std::vector<std::string> rigid_points;  ///< as motion.rigid_points of a scene; may be empty
   std::vector<VisitEntry> visits;         ///< in the order of the file, one or more
 };
+
+/// Whether a visit has scans.
+bool has_scans(const VisitsFile& file);
 
 /// Reads TOML:
 ///   patient = "P-017"

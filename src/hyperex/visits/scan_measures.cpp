@@ -45,8 +45,8 @@ std::vector<ScanMeasure> all_scan_measures() {
            &FoldCut::depth_mm);
   add_fold(all, "fold_depth", "Fold from nose to mouth: depth at the peak", true,
            &FoldCut::depth_mm);
-  add_fold(all, "fold_outward", "Fold from nose to mouth: outward of nose and mouth, at the peak",
-           true, &FoldCut::outward_mm);
+  add_fold(all, "fold_outward", "Fold from nose to mouth: place outward at the peak", true,
+           &FoldCut::outward_mm);
   return all;
 }
 
@@ -55,6 +55,13 @@ struct VisitScans {
   std::optional<MeasuredScan> rest, peak;
 };
 
+std::string not_measured(const ScanMeasure& measure, const VisitEntry& visit) {
+  return fmt::format(
+      "{}: {}{}{} is not measured: the scan has a hole or an edge within 20 mm, or no fold of 0.5 "
+      "mm",
+      visit.label, measure.words, measure.side.empty() ? "" : ", ", measure.side);
+}
+
 }  // namespace
 
 const std::vector<ScanMeasure>& scan_measures() {
@@ -62,17 +69,23 @@ const std::vector<ScanMeasure>& scan_measures() {
   return all;
 }
 
-MeasuredScan read_visit_scan(const VisitScan& scan, std::vector<std::string>& remarks) {
+MeasuredScan read_visit_scan(const VisitScan& scan, std::optional<io::LengthUnit> unit,
+                             std::vector<std::string>& remarks) {
   scene::Scene scene;
+  scene.scan.unit = unit;
   scene.scan.source.file = scan.file;
   scene.scan.landmarks = scan.landmarks;
   session::Inputs in;
   session::read_scan(scene, in);
   io::Landmarks given = session::given_landmarks(scene);
-  if (given.empty()) given = session::find_landmarks(in.scan, "none are given", in.notes);
+  if (given.empty()) given = session::find_landmarks(in.scan, "no landmarks are given", in.notes);
   session::complete_landmarks(scene, given, in.scan, in);
+  const std::string name = scan.file.filename().string();
   for (const Note& note : in.notes)
-    remarks.push_back(fmt::format("{}: {}", scan.file.filename().string(), note.text));
+    remarks.push_back(note.id == "scan.unit_guessed"
+                          ? fmt::format("{}: the unit is {}; unit of the visits states it", name,
+                                        io::unit_note(in.scan))
+                          : fmt::format("{}: {}", name, note.text));
   return {std::move(in.scan.mesh), std::move(in.landmarks)};
 }
 
@@ -100,15 +113,20 @@ void add_scan_measures(Comparison& comparison) {
   std::vector<VisitScans> scans;
   for (const VisitEntry& visit : comparison.file.visits) {
     VisitScans& has = scans.emplace_back();
-    if (visit.rest_scan) has.rest = read_visit_scan(*visit.rest_scan, comparison.scan_remarks);
-    if (visit.peak_scan) has.peak = read_visit_scan(*visit.peak_scan, comparison.scan_remarks);
+    if (visit.rest_scan)
+      has.rest = read_visit_scan(*visit.rest_scan, comparison.file.unit, comparison.scan_remarks);
+    if (visit.peak_scan)
+      has.peak = read_visit_scan(*visit.peak_scan, comparison.file.unit, comparison.scan_remarks);
   }
   for (const ScanMeasure& measure : scan_measures()) {
     std::vector<std::optional<Estimate>> found;
-    for (const VisitScans& visit : scans) {
-      const auto& scan = measure.at_peak ? visit.peak : visit.rest;
+    for (std::size_t v = 0; v < scans.size(); ++v) {
+      const auto& scan = measure.at_peak ? scans[v].peak : scans[v].rest;
       found.emplace_back();
-      if (scan) found.back() = estimate(measure, *scan, comparison.repetition_m);
+      if (!scan) continue;
+      found.back() = estimate(measure, *scan, comparison.repetition_m);
+      if (std::isnan(found.back()->value))
+        comparison.scan_remarks.push_back(not_measured(measure, comparison.file.visits[v]));
     }
     MeasureOverVisits one =
         over_visits({measure.key, measure.words, measure.side, measure.unit, {}}, found);

@@ -34,9 +34,10 @@ struct MeasuredScan {
   TriMesh skin;
   io::Landmarks landmarks;
 };
-/// Reads a scan and its landmarks, or finds them. `remarks`: what was guessed is added, sentences.
-/// Throws InputError.
-MeasuredScan read_visit_scan(const VisitScan& scan, std::vector<std::string>& remarks);
+/// Reads a scan and its landmarks, or finds them. `unit`: of the scan; nothing: guessed. `remarks`:
+/// what was guessed is added, sentences. Throws InputError.
+MeasuredScan read_visit_scan(const VisitScan& scan, std::optional<io::LengthUnit> unit,
+                             std::vector<std::string>& remarks);
 
 /// The measure with its error: landmarks, and the person's own variation as of one point.
 Estimate estimate(const ScanMeasure& measure, const MeasuredScan& scan, double repetition_m);

@@ -78,10 +78,11 @@ std::vector<std::string> summary(const Comparison& comparison) {
 
 std::string repetition_sentence(const Comparison& comparison) {
   if (comparison.repetition_measured)
-    return fmt::format(
-        "Repetition is measured: it is how far the recordings of one visit differ from each other, "
-        "for each measure. Of scans it is taken to be {:.1f} mm.",
-        1e3 * comparison.repetition_m);
+    return "Repetition is measured: it is how far the recordings of one visit differ from each "
+           "other, for each measure" +
+           (has_scans(comparison.file) ? fmt::format(". Of scans it is taken to be {:.1f} mm.",
+                                                     1e3 * comparison.repetition_m)
+                                       : std::string("."));
   const std::string figure = fmt::format(
       "95 % of the differences between two performances of an expression by one person are taken "
       "to be below {:.1f} mm",
@@ -93,7 +94,9 @@ std::string repetition_sentence(const Comparison& comparison) {
 }
 
 std::vector<std::string> remarks(const Comparison& comparison) {
-  std::vector<std::string> all = comparison.scan_remarks;
+  std::vector<std::string> all;
+  for (const std::string& remark : comparison.scan_remarks)
+    if (std::ranges::find(all, remark) == all.end()) all.push_back(remark);
   for (const auto& visit : comparison.faces)
     for (const MeasuredFace& face : visit)
       for (const std::string& remark : face.remarks)

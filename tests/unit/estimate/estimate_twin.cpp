@@ -144,17 +144,18 @@ Observation lying_observation_of(const Patient& patient, double young_factor,
   simulate::AlignedMotion motion;
   motion.motion.names = motion.common = points;
   motion.rest = places;
-  for (int k = 0; k < 20; ++k) {
+  constexpr int kUpright = 20, kLying = 20;
+  for (int k = 0; k < kUpright + kLying; ++k) {
     motion.motion.time_s.push_back(k / 30.0);
     Points at = places;
-    if (k > 0)
+    if (k >= kUpright)
       for (Eigen::Index p = 0; p < at.rows(); ++p) at.row(p) += moved.segment<3>(3 * p).transpose();
     motion.motion.positions.push_back(at);
   }
   std::mt19937 random(patient.seed + 1000);
   add_noise(motion.motion, patient.noise_m, random);
   const Eigen::AngleAxisd turn(-std::numbers::pi / 2, Vec3::UnitX());
-  for (std::size_t k = 1; k < motion.motion.positions.size(); ++k)
+  for (std::size_t k = kUpright; k < motion.motion.positions.size(); ++k)
     motion.motion.positions[k] *= turn.toRotationMatrix().transpose();
   const motion::StabilisedMotion steady = motion::stabilise(motion.motion);
   motion.motion = steady.motion;

@@ -2,7 +2,11 @@
 // Opening, saving, and the files that a crashed session leaves.
 #include <fstream>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
 #include "support/zip_writer.hpp"
 #include "unit/studio/session_fixture.hpp"
 
@@ -216,6 +220,30 @@ TEST_F(StudioSession, ComparesARecordingWithTheOneBefore) {
   EXPECT_EQ(page.find("uploads"), std::string::npos) << "the studio's own folder means nothing";
   ask("undo");
   EXPECT_EQ(event("scene")->head["earlier"], "") << "it is the present one again";
+  ask("undo");
+  EXPECT_EQ(event("scene")->head["earlier"], "") << "the present one is the studio's own";
+}
+
+/// The face at rest is that of each recording, not the scan's.
+TEST_F(StudioSession, VisitsKeepTheFaceAtRest) {
+  open();
+  const auto drop = [&](const std::string& name, double droop_m) {
+    motion::Motion smile = motion::embedded_mouth_opening(anatomy::embedded_face().landmarks);
+    for (const int point : {48, 60})
+      for (Points& at : smile.positions) at.row(smile.index_of(face::ibug(point))).y() -= droop_m;
+    motion::write_motion_csv(folder_.path() / "own" / "uploads" / name, smile);
+    EXPECT_FALSE(ask("open", {{"what", "current"}, {"recording", name}}).contains("error"));
+  };
+  drop("visit1.csv", 0);
+  drop("visit2.csv", 0.004);
+  const json answer = ask("compare_visits", {{"expression", "mouth open"}, {"name", "change"}});
+  ASSERT_FALSE(answer.contains("error")) << answer;
+  const std::string page = read_file(folder_.path() / "mine" / "change.html");
+  const auto at = page.find("\"corner_height\"");
+  ASSERT_NE(at, std::string::npos);
+  // The measure of the page's data: {"changes":[null,{..."value":-4.0}],"key":"corner_height",...
+  const auto begins = page.rfind("\"changes\"", at);
+  EXPECT_THAT(page.substr(begins, at - begins), testing::ContainsRegex("\"value\":-[34]\\."));
 }
 
 TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {

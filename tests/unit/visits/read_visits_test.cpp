@@ -33,7 +33,7 @@ TEST_F(ReadVisits, HasEveryKey) {
           "rigid_points = [\"nasion\"]\n[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n"
           "note = \"before\"\njitter_mm = 0.2\nend_s = 1.5\nrest_scan = \"a.csv\"\n"
           "peak_scan = \"a.csv\"\npeak_landmarks = \"a.csv\"\n[[visit]]\ndate = \"later\"\n"
-          "recordings = [\"a.csv\", \"a.csv\"]\n"));
+          "recordings = [\"b.csv\", \"c.csv\"]\n"));
   EXPECT_EQ(file.patient, "P-017");
   EXPECT_EQ(file.expression.name, "pucker");
   EXPECT_DOUBLE_EQ(file.repetition_m.value(), 2e-3);
@@ -73,6 +73,8 @@ TEST_F(ReadVisits, NamesWhatIsWrongAndWhere) {
   EXPECT_THAT(refused(visit + "rest_landmarks = \"a.csv\"\n"),
               HasSubstr("rest_scan beside it, the scan that they are of"));
   EXPECT_THAT(refused(visit + visit), HasSubstr("a date that no other visit has"));
+  EXPECT_THAT(refused("[[visit]]\ndate = \"x\"\nrecordings = [\"a.csv\", \"./a.csv\"]\n"),
+              HasSubstr("a recording that is not given before"));
   EXPECT_THAT(refused("patient = \n"), HasSubstr("sound TOML"));
 }
 
