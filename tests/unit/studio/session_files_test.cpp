@@ -229,8 +229,10 @@ TEST_F(StudioSession, VisitsKeepTheFaceAtRest) {
   open();
   const auto drop = [&](const std::string& name, double droop_m) {
     motion::Motion smile = motion::embedded_mouth_opening(anatomy::embedded_face().landmarks);
-    for (const int point : {48, 60})
-      for (Points& at : smile.positions) at.row(smile.index_of(face::ibug(point))).y() -= droop_m;
+    const Points rest = smile.positions.front();
+    for (Eigen::Index p = 0; p < rest.rows(); ++p)
+      if ((rest.row(p) - rest.row(smile.index_of(face::ibug(48)))).norm() < 1e-3)
+        for (Points& at : smile.positions) at(p, 1) -= droop_m;
     motion::write_motion_csv(folder_.path() / "own" / "uploads" / name, smile);
     EXPECT_FALSE(ask("open", {{"what", "current"}, {"recording", name}}).contains("error"));
   };

@@ -16,7 +16,9 @@ using testing::HasSubstr;
 
 class ReadVisits : public testing::Test {
  protected:
-  void SetUp() override { std::ofstream(folder_ / "a.csv") << "x"; }
+  void SetUp() override {
+    for (const char* name : {"a.csv", "b.csv", "c.csv"}) std::ofstream(folder_ / name) << "x";
+  }
   std::filesystem::path put(const std::string& text) const {
     std::ofstream(folder_ / "v.toml") << text;
     return folder_ / "v.toml";
