@@ -179,6 +179,8 @@ TEST_F(Program, RefusesInOneLine) {
                                 "symmetry m.csv --unit m",
                                 "symmetry motion.csv --jitter-mm much",
                                 "symmetry motion.csv --jitter-mm -1",
+                                "symmetry motion.csv --repetition-mm nan",
+                                "symmetry motion.csv --repetition-mm 30",
                                 "symmetry motion.csv --map m.png",
                                 "symmetry empty",
                                 "symmetry face",

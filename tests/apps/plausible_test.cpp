@@ -110,6 +110,10 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   EXPECT_THAT(noisy.out, HasSubstr("undecided"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0").out, HasSubstr("taken as exact, as --jitter-mm 0"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0.3").out, HasSubstr("as --jitter-mm states it: 0.30 mm"));
+  EXPECT_THAT(noisy.out, Not(HasSubstr("repetition: ")));
+  EXPECT_THAT(call(quiet + " --jitter-mm 0 --repetition-mm 1.5 --excursions repeated.csv").out,
+              HasSubstr("repetition: differences of excursions below 1.5 mm are undecided"));
+  EXPECT_THAT(read_file(in("repeated.csv")), HasSubstr(",1.5,1.5,0,")) << "floor, undecided";
   // The run's folder states the jitter that the run used.
   std::filesystem::create_directory(in("ran"));
   std::filesystem::copy_file(in("motion.csv"), in("ran/motion.csv"));
