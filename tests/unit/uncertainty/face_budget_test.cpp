@@ -121,7 +121,7 @@ TEST(FaceBudget, IsWrittenAsATableAndInWords) {
   EXPECT_THAT(table, testing::StartsWith(
                          "variant,point,side,figure,value_mm,half_width_95_mm,decided,"
                          "largest_part,jitter_mm,head_pose_mm,landmarks_mm,mesh_mm,muscles_mm,"
-                         "inversion_mm,stiffness_mm,law_mm\n"));
+                         "inversion_mm,stiffness_mm,law_mm,repetition_mm\n"));
   EXPECT_THAT(table, testing::HasSubstr("\n\"stiff, right\",cheilion,R,change,"));
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + int(face.budget().figures.size()));
   const auto sentences = corner_sentences(face.budget());
