@@ -327,10 +327,10 @@ describe('the studio', { skip, concurrency: false }, () => {
     const { page, complaints, close } = await openStudio(browser, studio.address);
     const choose = async (name, text) => page.locator('#file-picker').setInputFiles({ name, mimeType: 'text/plain', buffer: Buffer.from(text) });
     await choose('broken.ply', 'ply\nformat nonsense\n');
-    await page.waitForSelector('#open-panel .problem:not([hidden])');
-    assert.match(await page.locator('#open-panel .problem').innerText(), /broken\.ply/);
+    await page.waitForSelector('#open-panel > .problem:not([hidden])');
+    assert.match(await page.locator('#open-panel > .problem').innerText(), /broken\.ply/);
     await choose('alone.csv', 'time_s\n');
-    await page.waitForSelector('#open-panel .problem:has-text("alone.csv")');
+    await page.waitForSelector('#open-panel > .problem:has-text("alone.csv")');
     assert.equal(await page.locator('html[data-opening]').count(), 0, 'the face that is open stays');
 
     const motions = await count(page, 'motions');

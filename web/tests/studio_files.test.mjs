@@ -24,8 +24,8 @@ async function open(remarksOf = () => []) {
   });
   const choose = (...files) => studio.page.setInputFiles('#file-picker', files);
   const problem = async () => {
-    await studio.page.waitForSelector('#open-panel .problem:not([hidden])');
-    return studio.page.locator('#open-panel .problem').textContent();
+    await studio.page.waitForSelector('#open-panel > .problem:not([hidden])');
+    return studio.page.locator('#open-panel > .problem').textContent();
   };
   return { ...studio, uploads, choose, problem };
 }

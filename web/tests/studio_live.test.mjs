@@ -78,7 +78,7 @@ describe('the studio live', { skip, concurrency: false }, () => {
     const choose = async (name, zip) => page.locator('#file-picker').setInputFiles([
       { name: 'me.ply', mimeType: 'model/ply', buffer: await readFile(scan) }, { name, mimeType: 'application/zip', buffer: zip }]);
     await choose('bad.zip', zipOf([['../rgb.txt', Buffer.from('x')]]));
-    await page.waitForSelector('#open-panel .problem:has-text("leads elsewhere")');
+    await page.waitForSelector('#open-panel > .problem:has-text("leads elsewhere")');
     await choose('talk.zip', zipOfFolder(recording, 'opening'));
     await page.waitForFunction(() => /recording = ".*opening"/.test(document.getElementById('scene-text').textContent));
     await page.waitForFunction(() => document.documentElement.dataset.current === 'true');
