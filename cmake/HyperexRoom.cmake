@@ -79,10 +79,11 @@ endfunction()
 
 # The tests of one room: an executable test_NAME, each of its cases one CTest.
 #   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
+# TIMEOUT: seconds a case may take, 600 by default.
 # Cases may read real data under ${PROJECT_SOURCE_DIR}/../shared and must skip where it is absent.
 # Each bears its folder under tests/ as label: ctest -L unit/io, and the time by room at ctest's end.
 function(hx_test name)
-  cmake_parse_arguments(T "" "" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   target_compile_options(test_${name} PRIVATE ${HYPEREX_WARNINGS})
@@ -95,6 +96,9 @@ function(hx_test name)
   file(RELATIVE_PATH room ${PROJECT_SOURCE_DIR}/tests ${CMAKE_CURRENT_SOURCE_DIR})
   include(GoogleTest)
   set(timeout 600)
+  if(T_TIMEOUT)
+    set(timeout ${T_TIMEOUT})
+  endif()
   if(HYPEREX_TSAN)  # a whole run takes minutes there
     set(timeout 2400)
   endif()
