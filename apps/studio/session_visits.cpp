@@ -4,6 +4,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/read_recording.hpp"
@@ -16,22 +17,16 @@ namespace hyperex::studio {
 
 namespace {
 
-/// The file that moves a scene's face; empty for the embedded recording.
-fs::path recording_of(const scene::MotionOptions& motion) {
-  for (const fs::path& file : {motion.recording, motion.openface, motion.arkit})
-    if (!file.empty()) return file;
-  return motion.source.file;
-}
-
-/// A visit of what moves a face: its points as recorded, without head pose, written into a file.
-/// Not as they are aligned with the scan, which gives both visits the same face at rest.
+/// Writes the recorded points, without head pose, into the file `written`, and returns a visit that
+/// has this file. They are not aligned with the scan: that would give both visits the same face at
+/// rest.
 visits::VisitEntry visit_of(const scene::Scene& scene, session::Inputs inputs,
                             const fs::path& written) {
   const motion::Motion recorded = session::read_motion(scene, session::Extent::full, inputs);
   motion::write_motion_csv(
       written, session::steady_motion(scene, recorded, session::Extent::full, inputs).motion);
   visits::VisitEntry visit;
-  visit.label = recording_of(scene.motion).filename().string();
+  visit.label = scene::recording_file(scene.motion).filename().string();
   visit.recordings = {written};
   return visit;
 }
@@ -41,7 +36,8 @@ visits::VisitEntry visit_of(const scene::Scene& scene, session::Inputs inputs,
 std::string Session::earlier_recording() const {
   if (!earlier_ || !face_) return "";
   const scene::Scene earlier = scene::read_scene_text(earlier_->text, earlier_->file);
-  const fs::path before = recording_of(earlier.motion), now = recording_of(face_->scene().motion);
+  const fs::path before = scene::recording_file(earlier.motion),
+                 now = scene::recording_file(face_->scene().motion);
   // The smiles that the studio brings are no patient's.
   for (const fs::path& file : {before, now})
     if (file.empty() || file == options_.folder / "smile_arkit.csv") return "";

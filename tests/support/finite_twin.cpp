@@ -18,15 +18,8 @@ std::vector<motion::Motion> at_finite_strain(const TwinFace& face,
   options.tissue.uniform[tissue::young] *= young_factor;
   simulate::Simulator simulator(face.mesh, face.landmarks, motion, options);
   std::vector<motion::Motion> out = {simulator.run().performance.landmarks};
-  simulator.hold_load();
-  for (const TwinChange& change : changes) {
-    simulate::SimulationOptions changed = options;
-    changed.tissue = with_factor(options.tissue, change.young_factor,
-                                 std::size_t(face.mesh->volume.tets.rows()));
-    changed.muscles.gains = change.gains;
-    simulator.set_options(changed);
-    out.push_back(simulator.run().performance.landmarks);
-  }
+  for (motion::Motion& tracks : tracks_after(simulator, face, changes))
+    out.push_back(std::move(tracks));
   return out;
 }
 

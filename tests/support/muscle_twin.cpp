@@ -28,8 +28,6 @@ std::string group_of(const std::string& muscle) {
   return muscles::find_muscle(bare)->group + muscle.substr(muscle.size() - 2);
 }
 
-}  // namespace
-
 simulate::TissueValues with_factor(const simulate::TissueValues& values,
                                    const std::vector<double>& young_factor, std::size_t tets) {
   simulate::TissueValues out = values;
@@ -39,6 +37,8 @@ simulate::TissueValues with_factor(const simulate::TissueValues& values,
     out.element[tissue::young][t] *= young_factor[t];
   return out;
 }
+
+}  // namespace
 
 Corners held_corners(const motion::Motion& tracks) {
   const auto way = [&](int point) {
@@ -177,14 +177,23 @@ TwinAnswer twin_answer(const TwinFace& face, const TwinTruth& truth, const Activ
     out.true_groups[at - muscles.groups.begin()] += a;
   }
   out.found_groups = muscles.group_activation.rightCols(kHeld).rowwise().mean();
+  for (const motion::Motion& tracks : tracks_after(simulator, face, changes))
+    out.found.push_back(held_corners(tracks));
+  return out;
+}
+
+std::vector<motion::Motion> tracks_after(simulate::Simulator& simulator, const TwinFace& face,
+                                         const std::vector<TwinChange>& changes) {
+  const simulate::SimulationOptions options = simulator.options();
   simulator.hold_load();
+  std::vector<motion::Motion> out;
   for (const TwinChange& change : changes) {
     simulate::SimulationOptions changed = options;
     changed.tissue = with_factor(options.tissue, change.young_factor,
                                  std::size_t(face.mesh->volume.tets.rows()));
     changed.muscles.gains = change.gains;
     simulator.set_options(changed);
-    out.found.push_back(held_corners(simulator.run().performance.landmarks));
+    out.push_back(simulator.run().performance.landmarks);
   }
   return out;
 }

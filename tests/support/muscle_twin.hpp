@@ -15,6 +15,7 @@
 #include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
 #include "hyperex/simulate/options.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::test {
 
@@ -85,9 +86,10 @@ class TwinTruth {
   std::vector<Tissue> tissues_;  ///< base, then changed
 };
 
-/// The values with Young's modulus multiplied in each of `tets` tetrahedra; an empty factor is 1.
-simulate::TissueValues with_factor(const simulate::TissueValues& values,
-                                   const std::vector<double>& young_factor, std::size_t tets);
+/// The tracks of the landmarks after each of the changes, under the forces of the simulator's last
+/// run. Leaves the simulator with the last change.
+std::vector<motion::Motion> tracks_after(simulate::Simulator& simulator, const TwinFace& face,
+                                         const std::vector<TwinChange>& changes);
 
 /// The mean over the last frames, so that the noise of a single sample does not decide.
 Corners held_corners(const motion::Motion& tracks);

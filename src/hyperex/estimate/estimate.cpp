@@ -15,6 +15,7 @@
 #include "hyperex/estimate/proposal.hpp"
 #include "hyperex/estimate/ratio_parts.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 
@@ -107,7 +108,7 @@ std::vector<fs::path> files_of(const scene::Scene& scene, const Request& request
   if (!request.lying.empty()) out.push_back(request.lying);
   for (const HungWeight& weight : request.weights) out.push_back(weight.recording);
   std::set<fs::path> known;
-  if (const fs::path file = recording_of(scene.motion); !file.empty())
+  if (const fs::path& file = scene::recording_file(scene.motion); !file.empty())
     known.insert(fs::weakly_canonical(file));
   for (const fs::path& file : out)
     if (!known.insert(fs::weakly_canonical(file)).second)

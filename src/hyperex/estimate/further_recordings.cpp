@@ -1,21 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/estimate/further_recordings.hpp"
 
+#include "hyperex/scene/recording_file.hpp"
+
 namespace hyperex::estimate {
-namespace {
-
-/// The file of the recording.
-std::filesystem::path& file_of(scene::MotionOptions& motion) {
-  for (auto* file : {&motion.recording, &motion.openface, &motion.arkit})
-    if (!file->empty()) return *file;
-  return motion.source.file;
-}
-
-}  // namespace
-
-std::filesystem::path recording_of(scene::MotionOptions motion) {
-  return file_of(motion);
-}
 
 FurtherRecordings::FurtherRecordings(const session::FaceSession& session)
     : scene_(session.scene()) {
@@ -26,7 +14,7 @@ FurtherRecordings::FurtherRecordings(const session::FaceSession& session)
 
 session::Inputs FurtherRecordings::read(const std::filesystem::path& file) const {
   scene::Scene other = scene_;
-  file_of(other.motion) = file;
+  scene::recording_file(other.motion) = file;
   return session::read_inputs(other);
 }
 
@@ -46,10 +34,9 @@ session::Inputs FurtherRecordings::read_points(const std::filesystem::path& file
   return session::read_inputs(other);
 }
 
-std::string name_of(scene::MotionOptions motion) {
-  const std::filesystem::path file = recording_of(std::move(motion));
-  if (!file.empty()) return file.filename().string();
-  return "the embedded recording";
+std::string name_of(const scene::MotionOptions& motion) {
+  const std::filesystem::path& file = scene::recording_file(motion);
+  return file.empty() ? "the embedded recording" : file.filename().string();
 }
 
 }  // namespace hyperex::estimate

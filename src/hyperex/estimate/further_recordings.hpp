@@ -22,9 +22,7 @@ class FurtherRecordings {
   scene::Scene scene_;
 };
 
-/// The file that moves a scene's face; empty for the embedded recording.
-std::filesystem::path recording_of(scene::MotionOptions motion);
-/// Its name.
-std::string name_of(scene::MotionOptions motion);
+/// The name of the recording that moves a scene's face.
+std::string name_of(const scene::MotionOptions& motion);
 
 }  // namespace hyperex::estimate

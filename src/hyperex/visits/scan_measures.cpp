@@ -41,10 +41,8 @@ std::vector<ScanMeasure> all_scan_measures() {
                  [](const TriMesh& skin, const io::Landmarks& landmarks) {
                    return metrics::rest_asymmetry(skin, landmarks).rest_rms_mm;
                  }});
-  add_fold(all, "fold_rest_depth", "Fold nose to mouth: depth at rest", false,
-           &FoldCut::depth_mm);
-  add_fold(all, "fold_depth", "Fold nose to mouth: depth at the peak", true,
-           &FoldCut::depth_mm);
+  add_fold(all, "fold_rest_depth", "Fold nose to mouth: depth at rest", false, &FoldCut::depth_mm);
+  add_fold(all, "fold_depth", "Fold nose to mouth: depth at the peak", true, &FoldCut::depth_mm);
   add_fold(all, "fold_outward", "Fold nose to mouth: place outward at the peak", true,
            &FoldCut::outward_mm);
   return all;

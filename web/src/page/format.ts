@@ -47,3 +47,9 @@ export const upper = (text: string): string => text.charAt(0).toUpperCase() + te
 
 /** Base is the scene without a variant. */
 export const faceWords = (faces: { name: string }[], i: number): string => faces[i].name;
+
+/** "−0.3"; what rounds to nothing has no sign. */
+export function fixed(value: number, digits: number): string {
+  const text = value.toFixed(digits);
+  return signed(Number(text) === 0 ? (0).toFixed(digits) : text);
+}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How certain the answer is with all errors: asked for, as it takes a while, and shown as intervals.
 import { button, element, unbroken } from '../page/dom';
+import { fixed } from '../page/format';
 import type { Connection } from './connection';
 import type { BudgetFigure } from './messages';
 import type { StudioState } from './studio_state';
@@ -14,12 +15,9 @@ interface Budget {
   text: string;
 }
 
-/** "−5.6"; without the sign of a zero. */
-const signed = (value: number): string => (Math.round(10 * value) / 10 + 0).toFixed(1).replace('-', '−');
-
 export class Certainty {
   private budget: Budget | null = null;
-  /** The scene of which it was asked for. */
+  /** The text of the scene for which intervals were requested; null: no request is waiting for an answer. */
   private askedText: string | null = null;
   private readonly ask: HTMLButtonElement;
   private readonly lines = element('ul', '', 'certainty-lines');
@@ -89,6 +87,6 @@ export class Certainty {
 function sentence({ figure, side, value_mm, half_width_95_mm, decided, largest_part }: BudgetFigure): string {
   const value = value_mm ?? 0;
   const what = figure === 'difference' ? words.certaintyApart : words.certaintyOf(words.sideNames[side ?? 'R'], figure === 'change');
-  const interval = words.certaintyInterval(signed(value), signed(value - half_width_95_mm), signed(value + half_width_95_mm), largest_part);
+  const interval = words.certaintyInterval(fixed(value, 1), fixed(value - half_width_95_mm, 1), fixed(value + half_width_95_mm, 1), largest_part);
   return `${what} ${interval}${decided === false ? `, ${words.certaintyUndecided}` : ''}`;
 }

@@ -4,7 +4,7 @@ import { element } from '../page/dom';
 import { letterOf, sideHint, sideLetter, sides, type Side } from '../page/side_words';
 import { rangesOf } from './axes';
 import type { Choice } from './choice';
-import { fixed } from './figures';
+import { fixed } from '../page/format';
 import type { Manifest } from './manifest';
 import { drawPanel, svg, type Line } from './panel';
 

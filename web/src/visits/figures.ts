@@ -1,15 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Values and changes as the table prints them.
-import { signed } from '../page/format';
+import { fixed } from '../page/format';
 import type { Change, Measure, Value } from './manifest';
 
 const digitsOf = (unit: Measure['unit']): number => (unit === '%' ? 0 : 1);
-
-/** "−0.3"; what rounds to nothing has no sign. */
-export function fixed(value: number, digits: number): string {
-  const text = value.toFixed(digits);
-  return signed(Number(text) === 0 ? (0).toFixed(digits) : text);
-}
 
 /** "+2.1": a change always has a sign, a value only if it is negative. */
 const withSign = (text: string): string => (text.startsWith('−') || Number(text) === 0 ? text : `+${text}`);
