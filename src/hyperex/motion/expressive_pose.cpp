@@ -28,6 +28,10 @@ constexpr double kLeastAmplitude = 1e-4;
 constexpr int kAmplitudes = 17, kUsualIndex = 12;
 // A weak prior against very large amplitudes, which a face with few points may suggest.
 constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
+// A motion of the brows that was taken for a motion of the head leaves no trace in the lower face,
+// and the reverse. For the covariance each part moves at least as much as the other, the upper face
+// at least half as much.
+constexpr double kUpperWithLower = 0.5;
 
 Eigen::Matrix3d cross_matrix(const Vec3& v) {
   Eigen::Matrix3d m;
@@ -276,9 +280,8 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
     const Amplitudes a = smoothed(motion.time_s, found, k);
     poses.push_back(
         witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
-    // A motion of the brows that was taken for a motion of the head leaves no trace in the lower
-    // face.
-    const Witnesses::Weighing wide = witnesses.weigh({a[0], std::max(a[0], a[1])});
+    const Witnesses::Weighing wide =
+        witnesses.weigh({std::max(a[0], kUpperWithLower * a[1]), std::max(a[0], a[1])});
     poses.back().covariance = wide.covariance;
     poses.back().of_jitter = witnesses.of_jitter(wide);
     progress.update(long(samples + k + 1));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/motion/landmark_motion.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string_view>
@@ -17,6 +18,11 @@ namespace {
 constexpr double kMillimetre = 1e-3;
 constexpr std::size_t kTexts = 3, kNumbersBeforeModes = 6;
 constexpr double kCorrelationLength_m = 0.04, kShared = 0.9;
+// The modes come from expressions that most people make with both sides. The share of their
+// variance that both sides have in common; the rest is each side's own, as in a palsy.
+constexpr double kSidesAlike = 0.3;
+// Half the width of the middle of the face, where a side's own motion fades out.
+constexpr double kMiddle_m = 0.01;
 
 // The file is part of the program: an error in it is an error of the build.
 void require(bool sound) {
@@ -83,13 +89,32 @@ Eigen::Matrix3d beyond_modes(const LandmarkMotion& table, int a, int b) {
   return (alike * table.sd_m.row(a).array() * table.sd_m.row(b).array()).matrix().asDiagonal();
 }
 
+/// 1 on the subject's left, 0 on the right.
+double share_of_left(const LandmarkMotion& table, int row) {
+  return std::clamp(0.5 + table.rest_m(row, 0) / (2 * kMiddle_m), 0.0, 1.0);
+}
+
+/// The covariance of the motion by modes: of the whole face, and of each side alone. The variance
+/// of each landmark is that of the whole modes.
+Eigen::MatrixXd by_modes(const LandmarkMotion& table, const std::vector<int>& rows,
+                         const Eigen::MatrixXd& all_modes) {
+  Eigen::MatrixXd modes(3 * Eigen::Index(rows.size()), all_modes.cols());
+  Eigen::MatrixXd left = modes, right = modes;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Eigen::MatrixXd own = all_modes.middleRows(3 * rows[i], 3);
+    const double share = share_of_left(table, rows[i]);
+    modes.middleRows(3 * Eigen::Index(i), 3) = own;
+    left.middleRows(3 * Eigen::Index(i), 3) = std::sqrt(share) * own;
+    right.middleRows(3 * Eigen::Index(i), 3) = std::sqrt(1 - share) * own;
+  }
+  return kSidesAlike * modes * modes.transpose() +
+         (1 - kSidesAlike) * (left * left.transpose() + right * right.transpose());
+}
+
 Eigen::MatrixXd part_prior(const LandmarkMotion& table, const std::vector<int>& rows, bool upper) {
-  const Eigen::MatrixXd& all_modes = upper ? table.upper_modes_m : table.lower_modes_m;
+  Eigen::MatrixXd covariance =
+      by_modes(table, rows, upper ? table.upper_modes_m : table.lower_modes_m);
   const Eigen::Index count = Eigen::Index(rows.size());
-  Eigen::MatrixXd modes(3 * count, all_modes.cols());
-  for (Eigen::Index i = 0; i < count; ++i)
-    modes.middleRows(3 * i, 3) = all_modes.middleRows(3 * rows[std::size_t(i)], 3);
-  Eigen::MatrixXd covariance = modes * modes.transpose();
   for (Eigen::Index i = 0; i < count; ++i)
     for (Eigen::Index j = 0; j < count; ++j) {
       const int a = rows[std::size_t(i)], b = rows[std::size_t(j)];

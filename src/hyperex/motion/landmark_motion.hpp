@@ -28,8 +28,9 @@ const LandmarkMotion& landmark_motion();
 /// The covariances (3 m x 3 m, square metres) of the displacements of the landmarks `rows` caused
 /// by expressions of the upper and of the lower part of the face. Within a part, the motion that
 /// the modes do not describe has a correlation of 0.9 exp(-d / 40 mm) over a distance d; neighbours
-/// that move together thus count as one observation. `turn` rotates the table's axes into the
-/// wanted axes. `scale` (> 0) is the face's size divided by that of the table's face.
+/// that move together thus count as one observation. Of the variance of the modes the share 0.3 is
+/// common to both sides of the face, and the rest is each side's own. `turn` rotates the table's
+/// axes into the wanted axes. `scale` (> 0) is the face's size divided by that of the table's face.
 struct ExpressionPrior {
   Eigen::MatrixXd upper, lower;
 };

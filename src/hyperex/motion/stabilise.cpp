@@ -29,8 +29,9 @@ constexpr double kResidualFloor = 1e-5;
 const std::vector<std::string> kNoseTip = {face::ibug(30), "pronasale"};
 // The spread of the eye corners alone about their line is smaller than this.
 constexpr double kWellSpread = 0.2;
-// By how much real and synthetic expressions exceeded the prior's bounds, see docs/tracking.md.
-constexpr double kBeyondPrior = 2;
+// By how much the errors that expressions cause exceed the prior's: set so that the bounds hold for
+// 95 % of expressions, see docs/symmetry.md.
+constexpr double kBeyondPrior = 1.5;
 
 Points rows_of(const Points& all, const std::vector<int>& rows) {
   Points some(Eigen::Index(rows.size()), 3);
@@ -185,18 +186,23 @@ std::vector<UncertainPose> poses_of_stated(const std::vector<Pairs>& pairs, std:
   return uncertain;
 }
 
+/// With the part of the covariance that expressions cause widened. Jitter is measured.
+Eigen::Matrix<double, 6, 6> widened(const UncertainPose& pose, double by) {
+  return by * by * (pose.covariance - pose.of_jitter) + pose.of_jitter;
+}
+
 /// Moves all points into the frame of sample 0, and bounds how far an error of the pose may shift
 /// them.
 void take_out(const std::vector<UncertainPose>& poses, double widening, StabilisedMotion& result) {
   for (std::size_t k = 0; k < poses.size(); ++k) {
-    const UncertainPose& at = poses[k];
+    UncertainPose at = poses[k];
+    at.covariance = widened(at, widening);
+    if (k == 0) at.covariance.setZero(), at.of_jitter.setZero();
     const Eigen::Isometry3d back = at.pose.inverse();
     Points& seen = result.motion.positions[k];
     seen = ((seen * back.linear().transpose()).rowwise() + back.translation().transpose()).eval();
     result.motion.head_pose.push_back(at.pose);
     result.poses.push_back(at);
-    result.poses.back().covariance *= k == 0 ? 0 : widening * widening;
-    result.poses.back().of_jitter *= k == 0 ? 0 : widening * widening;
     double variance = 0, count = 0;
     for (Eigen::Index p = 0; p < seen.rows(); ++p)
       if (seen.row(p).allFinite()) {
@@ -204,9 +210,8 @@ void take_out(const std::vector<UncertainPose>& poses, double widening, Stabilis
         variance += (arm * at.covariance * arm.transpose()).trace();
         ++count;
       }
-    const double bound = k == 0 ? 0 : kWithin95 * widening;
-    result.shift_uncertainty_m.push_back(bound * std::sqrt(variance / std::max(1.0, count)));
-    result.turn_uncertainty_rad.push_back(bound *
+    result.shift_uncertainty_m.push_back(kWithin95 * std::sqrt(variance / std::max(1.0, count)));
+    result.turn_uncertainty_rad.push_back(kWithin95 *
                                           std::sqrt(at.covariance.topLeftCorner<3, 3>().trace()));
   }
 }

@@ -115,7 +115,11 @@ void add_recording(const PairExcursion& base, const Place& place, double value_m
 void add_inversion(const scene::Scene& scene, const Place& place, double value_mm,
                    metrics::ErrorBudget& errors) {
   if (place.kind != FigureKind::change || scene.drive.by == simulate::DriveBy::displacement) return;
-  errors.add(ErrorPart::inversion, std::pow(kInversion * value_mm, 2));
+  const auto& changes = scene.variants.at(place.face - 1).changes.items();
+  const bool of_muscles = std::ranges::all_of(
+      changes, [](const auto& change) { return change.key().starts_with("muscle"); });
+  const double share = of_muscles ? kInversion : kInversionOfTissue;
+  errors.add(ErrorPart::inversion, std::pow(share * value_mm, 2));
 }
 
 /// What the figures of other faces say of the errors of the face's own.

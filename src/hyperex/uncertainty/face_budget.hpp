@@ -12,9 +12,10 @@
 
 namespace hyperex::uncertainty {
 
-/// Of a change where forces drive, 1 sigma, relative: what twins whose face is known exactly still
-/// lack with seven points, 9 to 16 % (docs/twins.md).
-inline constexpr double kInversion = 0.15;
+/// Of a change where forces drive, 1 sigma, relative. By weaker muscles: what twins whose face is
+/// known exactly still lack with seven points, 9 to 16 % (docs/twins.md). By other tissue: what is
+/// found too small of a stiff cheek, a fifth (docs/uncertainty.md).
+inline constexpr double kInversion = 0.15, kInversionOfTissue = 0.2;
 
 /// Whether the face is also run by the other law. Finite strain takes as long as all else.
 enum class Laws { own, both };

@@ -188,6 +188,79 @@ TEST(ExpressivePose, AtRestTheBoundIsThatOfTheJitter) {
   }
 }
 
+/// Each side of the face may move alone: of the common motion of two corners by modes 0.3 is left,
+/// and each corner moves as far as the modes say.
+TEST(ExpressivePose, APriorOfTwoSidesCouplesThemByThreeTenths) {
+  const LandmarkMotion& table = landmark_motion();
+  const auto row = [&](const std::string& name) {
+    return int(std::ranges::find(table.names, name) - table.names.begin());
+  };
+  const int right = row("ibug68_48"), left = row("ibug68_54"), chin = row("ibug68_8");
+  const Eigen::MatrixXd prior =
+      expression_prior({right, left, chin}, Eigen::Matrix3d::Identity(), 1).lower;
+  const auto of_modes = [&](int a, int b) -> Eigen::Matrix3d {
+    return table.lower_modes_m.middleRows(3 * a, 3) *
+           table.lower_modes_m.middleRows(3 * b, 3).transpose();
+  };
+  const auto beyond = [&](int a, int b) -> Eigen::Matrix3d {
+    const double far_m = (table.rest_m.row(a) - table.rest_m.row(b)).norm();
+    return ((a == b ? 1 : 0.9 * std::exp(-far_m / 0.04)) * table.sd_m.row(a).array() *
+            table.sd_m.row(b).array())
+        .matrix()
+        .asDiagonal();
+  };
+  const double rounding = 1e-15;  // m^2
+  const auto off = [&](int i, int j, int a, int b, double share) {
+    return (prior.block<3, 3>(3 * i, 3 * j) - share * of_modes(a, b) - beyond(a, b))
+        .cwiseAbs()
+        .maxCoeff();
+  };
+  EXPECT_LT(off(0, 1, right, left, 0.3), rounding);
+  EXPECT_LT(off(0, 0, right, right, 1), rounding);
+  EXPECT_LT(off(2, 2, chin, chin, 1), rounding);
+  // The chin lies in the middle and has half of what each side does alone.
+  EXPECT_LT(off(0, 2, right, chin, 0.3 + 0.7 * std::sqrt(0.5)), rounding);
+}
+
+/// Of the mode that lifts the corners most, on the left alone.
+TEST(ExpressivePose, OneSideThatSmilesIsHardlyTakenForAMotionOfTheHead) {
+  const LandmarkMotion& table = landmark_motion();
+  const auto corner = std::ranges::find(table.names, "ibug68_54") - table.names.begin();
+  const auto chin = std::ranges::find(table.names, "ibug68_8") - table.names.begin();
+  Eigen::Index smile = 0;
+  (table.lower_modes_m.row(3 * corner + 1).cwiseAbs() -
+   table.lower_modes_m.row(3 * chin + 1).cwiseAbs())
+      .maxCoeff(&smile);
+  const auto one_sided = [&](std::size_t i, const Vec3& rest) -> Vec3 {
+    return 2.5 * std::clamp(0.5 + rest.x() / 0.03, 0.0, 1.0) *
+           table.lower_modes_m.block<3, 1>(3 * Eigen::Index(i), smile);
+  };
+  const Motion motion = grimace(one_sided, true);
+  const StabilisedMotion stable = stabilise(motion);
+  const Errors errors = errors_of(stable, motion, true);
+  std::printf("one-sided smile: %.2f degrees, %.2f mm; error over bound %.2f of %.2f mm\n",
+              errors.turn_deg, errors.shift_mm, errors.beyond,
+              1e3 * stable.shift_uncertainty_m[30]);
+  EXPECT_LT(errors.shift_mm, 0.3);
+  // A mouth that moves this much may well move with the eyes: the pose is less certain than the
+  // noise.
+  EXPECT_GT(stable.shift_uncertainty_m[30], 2.5e-4);
+  EXPECT_LT(errors.beyond, 1);
+}
+
+TEST(ExpressivePose, OnlyThePartThatExpressionsCauseIsWidened) {
+  const Motion motion = grimace(surprise, false, 3e-4);
+  const auto found = expressive_poses(motion, known_landmarks(motion));
+  const StabilisedMotion stable = stabilise(motion);
+  for (const std::size_t k : {1, 30}) {
+    const auto& jitter = found[k].of_jitter;
+    EXPECT_GT(jitter.norm(), 0);
+    EXPECT_EQ(stable.poses[k].of_jitter, jitter);
+    const Eigen::Matrix<double, 6, 6> expected = 2.25 * (found[k].covariance - jitter) + jitter;
+    EXPECT_LT((stable.poses[k].covariance - expected).norm(), 1e-12 * expected.norm());
+  }
+}
+
 TEST(ExpressivePose, MissingLandmarksAreDoneWithout) {
   Motion motion = grimace(surprise, true);
   for (std::size_t k = 20; k < 40; ++k)
