@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/metrics/lowpass.hpp"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "hyperex/metrics/nan.hpp"
 
@@ -36,51 +37,113 @@ Eigen::VectorXd intervals_of(const Eigen::VectorXd& t) {
   return weight;
 }
 
-/// Solves Reinsch's equations for the measured samples t and y: (R + lambda Q' W^-1 Q) g = Q' y, f
-/// = y - lambda W^-1 Q g. g are the second derivatives at the inner samples.
-SmoothTrack spline(const Eigen::VectorXd& t, const Points& y, double lambda) {
-  const Index n = t.size(), inner = n - 2;
-  const Eigen::VectorXd h = t.tail(n - 1) - t.head(n - 1);
-  const Eigen::VectorXd weight = intervals_of(t);
-  std::vector<Eigen::Triplet<double>> q, r;
-  for (Index j = 0; j < inner; ++j) {
-    q.emplace_back(j, j, 1 / h(j));
-    q.emplace_back(j + 1, j, -1 / h(j) - 1 / h(j + 1));
-    q.emplace_back(j + 2, j, 1 / h(j + 1));
-    r.emplace_back(j, j, (h(j) + h(j + 1)) / 3);
-    if (j + 1 < inner) {
-      r.emplace_back(j, j + 1, h(j + 1) / 6);
-      r.emplace_back(j + 1, j, h(j + 1) / 6);
+/// Reinsch's equations for the times t of measured samples y: (R + lambda Q' W^-1 Q) g = Q' y, f =
+/// y - lambda W^-1 Q g. g are the second derivatives at the inner samples. The matrix has five
+/// diagonals and is factored once (L D L') for all tracks.
+class SmoothingSpline {
+ public:
+  SmoothingSpline(const Eigen::VectorXd& t, double lambda)
+      : h_(t.tail(t.size() - 1) - t.head(t.size() - 1)),
+        inverse_weight_(intervals_of(t).cwiseInverse()),
+        lambda_(lambda),
+        diagonal_(t.size() - 2),
+        first_(Eigen::VectorXd::Zero(t.size() - 2)),
+        second_(Eigen::VectorXd::Zero(t.size() - 2)) {
+    for (Index j = 0; j < diagonal_.size(); ++j) {
+      double own = (h_(j) + h_(j + 1)) / 3 + lambda * product(j, j), next = 0;
+      if (j >= 1) next = h_(j) / 6 + lambda * product(j - 1, j);
+      if (j >= 2) {
+        second_(j) = lambda * product(j - 2, j) / diagonal_(j - 2);
+        next -= second_(j) * diagonal_(j - 2) * first_(j - 1);
+        own -= second_(j) * second_(j) * diagonal_(j - 2);
+      }
+      if (j >= 1) {
+        first_(j) = next / diagonal_(j - 1);
+        own -= first_(j) * first_(j) * diagonal_(j - 1);
+      }
+      diagonal_(j) = own;
     }
   }
-  Eigen::SparseMatrix<double> Q(n, inner), R(inner, inner);
-  Q.setFromTriplets(q.begin(), q.end());
-  R.setFromTriplets(r.begin(), r.end());
-  const Eigen::SparseMatrix<double> system =
-      R + lambda * (Q.transpose() * weight.cwiseInverse().asDiagonal() * Q);
-  // The system is banded. The natural order keeps the band, and no other order is better.
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower,
-                              Eigen::NaturalOrdering<int>>
-      factor(system);
-  const Eigen::MatrixXd bend = factor.solve(Q.transpose() * y);
-  SmoothTrack out{y - lambda * (weight.cwiseInverse().asDiagonal() * (Q * bend)), Points(n, 3)};
-  Points second = Points::Zero(n, 3);
-  second.middleRows(1, inner) = bend;
-  for (Index i = 0; i + 1 < n; ++i)
-    out.rate.row(i) = (out.value.row(i + 1) - out.value.row(i)) / h(i) -
-                      h(i) / 6 * (2 * second.row(i) + second.row(i + 1));
-  out.rate.row(n - 1) = (out.value.row(n - 1) - out.value.row(n - 2)) / h(n - 2) +
-                        h(n - 2) / 6 * (second.row(n - 2) + 2 * second.row(n - 1));
-  return out;
-}
+
+  SmoothTrack operator()(const Points& y) const {
+    const Index n = y.rows(), inner = n - 2;
+    Points bend = Points::Zero(n, 3);  // g, and 0 at both ends
+    for (Index j = 0; j < inner; ++j) {
+      bend.row(j + 1) =
+          (y.row(j) - y.row(j + 1)) / h_(j) + (y.row(j + 2) - y.row(j + 1)) / h_(j + 1);
+      if (j >= 1) bend.row(j + 1) -= first_(j) * bend.row(j);
+      if (j >= 2) bend.row(j + 1) -= second_(j) * bend.row(j - 1);
+    }
+    for (Index j = inner - 1; j >= 0; --j) {
+      bend.row(j + 1) /= diagonal_(j);
+      if (j + 1 < inner) bend.row(j + 1) -= first_(j + 1) * bend.row(j + 2);
+      if (j + 2 < inner) bend.row(j + 1) -= second_(j + 2) * bend.row(j + 3);
+    }
+    SmoothTrack out{y, Points(n, 3)};
+    for (Index i = 0; i < n; ++i) {
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of Q g
+      if (i + 1 < n) sum += (bend.row(i + 1) - bend.row(i)) / h_(i);
+      if (i >= 1) sum -= (bend.row(i) - bend.row(i - 1)) / h_(i - 1);
+      out.value.row(i) -= lambda_ * inverse_weight_(i) * sum;
+    }
+    for (Index i = 0; i + 1 < n; ++i)
+      out.rate.row(i) = (out.value.row(i + 1) - out.value.row(i)) / h_(i) -
+                        h_(i) / 6 * (2 * bend.row(i) + bend.row(i + 1));
+    out.rate.row(n - 1) = (out.value.row(n - 1) - out.value.row(n - 2)) / h_(n - 2) +
+                          h_(n - 2) / 6 * (bend.row(n - 2) + 2 * bend.row(n - 1));
+    return out;
+  }
+
+ private:
+  /// Entry (i, j) of Q' W^-1 Q. Column j of Q is 1 / h_j, -1 / h_j - 1 / h_(j+1), 1 / h_(j+1) in
+  /// the rows j, j + 1, j + 2.
+  double product(Index i, Index j) const {
+    const auto q = [&](Index row, Index column) {
+      if (row == column) return 1 / h_(column);
+      return row == column + 2 ? 1 / h_(column + 1) : -1 / h_(column) - 1 / h_(column + 1);
+    };
+    double sum = 0;
+    for (Index row = j; row <= i + 2; ++row) sum += q(row, i) * inverse_weight_(row) * q(row, j);
+    return sum;
+  }
+
+  Eigen::VectorXd h_, inverse_weight_;
+  double lambda_;
+  Eigen::VectorXd diagonal_, first_, second_;  // D, and the diagonals of L below its own
+};
 
 }  // namespace
 
-SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz) {
+struct LowpassFilter::Impl {
+  std::vector<double> time_s;
+  double cutoff_hz;
+  std::optional<SmoothingSpline> whole;  ///< of all times
+
+  SmoothingSpline spline_of(const Eigen::VectorXd& t) const {
+    return {t, std::pow(2 * std::numbers::pi * cutoff_hz, -4)};
+  }
+  SmoothTrack with_gaps(const Points& track) const;
+};
+
+LowpassFilter::LowpassFilter(std::vector<double> time_s, double cutoff_hz)
+    : impl_(std::make_unique<Impl>(Impl{std::move(time_s), cutoff_hz, {}})) {
+  const std::vector<double>& t = impl_->time_s;
+  if (cutoff_hz > 0 && t.size() >= 3)
+    impl_->whole.emplace(
+        impl_->spline_of(Eigen::Map<const Eigen::VectorXd>(t.data(), Index(t.size()))));
+}
+LowpassFilter::~LowpassFilter() = default;
+
+SmoothTrack LowpassFilter::operator()(const Points& track) const {
+  if (!impl_->whole) return unsmoothed(impl_->time_s, track);
+  return track.allFinite() ? (*impl_->whole)(track) : impl_->with_gaps(track);
+}
+
+SmoothTrack LowpassFilter::Impl::with_gaps(const Points& track) const {
   std::vector<Index> measured;
   for (Index k = 0; k < track.rows(); ++k)
     if (track.row(k).allFinite()) measured.push_back(k);
-  if (!(cutoff_hz > 0) || measured.size() < 3) return unsmoothed(time_s, track);
+  if (measured.size() < 3) return unsmoothed(time_s, track);
   Eigen::VectorXd t(Index(measured.size()));
   Points y(t.size(), 3);
   for (Index i = 0; i < t.size(); ++i) {
@@ -88,13 +151,17 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
     t(i) = time_s[std::size_t(k)];
     y.row(i) = track.row(k);
   }
-  const SmoothTrack smooth = spline(t, y, std::pow(2 * std::numbers::pi * cutoff_hz, -4));
+  const SmoothTrack smooth = spline_of(t)(y);
   SmoothTrack out{Points::Constant(track.rows(), 3, kNan), Points::Constant(track.rows(), 3, kNan)};
   for (Index i = 0; i < t.size(); ++i) {
     out.value.row(measured[std::size_t(i)]) = smooth.value.row(i);
     out.rate.row(measured[std::size_t(i)]) = smooth.rate.row(i);
   }
   return out;
+}
+
+SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz) {
+  return LowpassFilter(time_s, cutoff_hz)(track);
 }
 
 Points track_of(const motion::Motion& motion, int column) {
@@ -106,8 +173,9 @@ Points track_of(const motion::Motion& motion, int column) {
 
 motion::Motion lowpassed(motion::Motion motion, double cutoff_hz) {
   if (!(cutoff_hz > 0)) return motion;
+  const LowpassFilter filter(motion.time_s, cutoff_hz);
   for (int p = 0; p < int(motion.names.size()); ++p) {
-    const Points track = lowpassed(motion.time_s, track_of(motion, p), cutoff_hz).value;
+    const Points track = filter(track_of(motion, p)).value;
     for (Index k = 0; k < track.rows(); ++k) motion.positions[std::size_t(k)].row(p) = track.row(k);
   }
   return motion;

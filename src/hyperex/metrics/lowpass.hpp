@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "hyperex/geometry/types.hpp"
@@ -25,6 +26,19 @@ struct SmoothTrack {
 /// within `end_margin_s(cutoff_hz)` of an end depend on samples on one side only and are less
 /// accurate.
 SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, double cutoff_hz);
+
+/// The same for many tracks with the same times. The equations are factored once for all tracks
+/// without gaps.
+class LowpassFilter {
+ public:
+  LowpassFilter(std::vector<double> time_s, double cutoff_hz);
+  ~LowpassFilter();
+  SmoothTrack operator()(const Points& track) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
 
 /// The positions of one point of a motion over time, N x 3, m.
 Points track_of(const motion::Motion& motion, int column);

@@ -11,7 +11,8 @@ namespace hyperex::metrics {
 
 namespace {
 
-constexpr int kTracks = 200;
+// The greatest speed of a long track varies little from draw to draw: fewer are enough.
+constexpr std::size_t kMostTracks = 200, kFewestTracks = 20, kSamples = 600'000;
 
 double quantile_95(std::vector<double>& values) {
   const auto at = values.begin() + long(0.95 * double(values.size()));
@@ -28,10 +29,12 @@ SpeedFloor speed_floor(const std::vector<double>& time_s, double jitter_m, doubl
   std::vector<double> peaks, paths;
   double squares = 0;
   Points noise_mm(Eigen::Index(time_s.size()), 3);
-  for (int track = 0; track < kTracks; ++track) {
+  const LowpassFilter filter(time_s, cutoff_hz);
+  const std::size_t tracks = std::clamp(kSamples / time_s.size(), kFewestTracks, kMostTracks);
+  for (std::size_t track = 0; track < tracks; ++track) {
     for (Eigen::Index k = 0; k < noise_mm.rows(); ++k)
       for (Eigen::Index axis = 0; axis < 3; ++axis) noise_mm(k, axis) = normal(engine);
-    const SmoothTrack smooth = lowpassed(time_s, noise_mm, cutoff_hz);
+    const SmoothTrack smooth = filter(noise_mm);
     const Eigen::Index steps = noise_mm.rows() - 1;
     std::vector<double> speed;
     for (Eigen::Index k = 0; k <= steps; ++k) speed.push_back(smooth.rate.row(k).norm());
@@ -40,7 +43,7 @@ SpeedFloor speed_floor(const std::vector<double>& time_s, double jitter_m, doubl
         (smooth.value.bottomRows(steps) - smooth.value.topRows(steps)).rowwise().norm().sum());
     squares += smooth.rate.squaredNorm() / double(noise_mm.rows());
   }
-  return {quantile_95(peaks), quantile_95(paths), std::sqrt(squares / kTracks)};
+  return {quantile_95(peaks), quantile_95(paths), std::sqrt(squares / double(tracks))};
 }
 
 }  // namespace hyperex::metrics

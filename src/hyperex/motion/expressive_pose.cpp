@@ -41,6 +41,13 @@ Eigen::Matrix3d cross_matrix(const Vec3& v) {
 
 using Amplitudes = std::array<double, 2>;  // of upper and lower face
 
+/// Generalised least squares of the pose.
+struct Estimator {
+  Eigen::MatrixXd gain;  ///< K = (J' S^-1 J)^-1 J' S^-1: residuals to a step of the pose
+  Matrix6 covariance = Matrix6::Zero();
+  Matrix6 of_jitter = Matrix6::Zero();  ///< the part that jitter makes: K (2 s^2 I) K'
+};
+
 /// The landmarks measured in a sample, with all quantities that depend only on which landmarks
 /// these are.
 class Witnesses {
@@ -65,9 +72,9 @@ class Witnesses {
   /// The information of the landmarks about the pose, for given amplitudes of the expressions.
   struct Weighing {
     Eigen::LLT<Eigen::MatrixXd> factor;
-    Eigen::MatrixXd whitened;  // L^-1 J
-    Matrix6 covariance;
+    Eigen::MatrixXd whitened;    // L^-1 J
     double log_determinant = 0;  // of S and of J' S^-1 J
+    Estimator pose;
   };
   Weighing weigh(const Amplitudes& a) const {
     Eigen::MatrixXd s = a[0] * a[0] * prior_.upper + a[1] * a[1] * prior_.lower;
@@ -76,7 +83,10 @@ class Witnesses {
     w.factor.compute(s);
     w.whitened = w.factor.matrixL().solve(jacobian_);
     const Eigen::LLT<Matrix6> normal(w.whitened.transpose() * w.whitened);
-    w.covariance = normal.solve(Matrix6::Identity());
+    w.pose.covariance = normal.solve(Matrix6::Identity());
+    const Eigen::MatrixXd weights = w.factor.matrixU().solve(w.whitened) * w.pose.covariance;
+    w.pose.gain = weights.transpose();
+    w.pose.of_jitter = variance_ * weights.transpose() * weights;
     const Eigen::VectorXd diagonal = w.factor.matrixLLT().diagonal();
     w.log_determinant =
         2 * diagonal.array().log().sum() + 2 * normal.matrixLLT().diagonal().array().log().sum();
@@ -87,7 +97,8 @@ class Witnesses {
   static double misfit(const Weighing& w, const Eigen::VectorXd& residual, const Amplitudes& a) {
     const Eigen::VectorXd white = w.factor.matrixL().solve(residual);
     const Vector6 explained = w.whitened.transpose() * white;
-    double sum = w.log_determinant + white.squaredNorm() - explained.dot(w.covariance * explained);
+    double sum =
+        w.log_determinant + white.squaredNorm() - explained.dot(w.pose.covariance * explained);
     for (const double amplitude : a)
       sum += 2 * kPriorWeight * std::pow(std::max(0.0, std::log(amplitude / kUsualAmplitude)), 2);
     return sum;
@@ -106,11 +117,11 @@ class Witnesses {
     return fit_rigid(reference_, now, trust_);
   }
 
-  UncertainPose refined(const Weighing& w, const Points& now, Eigen::Isometry3d pose) const {
+  Eigen::Isometry3d refined(const Estimator& estimator, const Points& now,
+                            Eigen::Isometry3d pose) const {
     constexpr int kIterations = 4;  // the remaining rotations are small: two would be enough
     for (int i = 0; i < kIterations; ++i) {
-      const Eigen::VectorXd white = w.factor.matrixL().solve(residual(now, pose));
-      const Vector6 step = w.covariance * (w.whitened.transpose() * white);
+      const Vector6 step = estimator.gain * residual(now, pose);
       const Vec3 turn = step.head<3>();
       Eigen::Isometry3d move = Eigen::Isometry3d::Identity();
       move.translate(centre_ + Vec3(step.tail<3>()));
@@ -118,15 +129,10 @@ class Witnesses {
       move.translate(-centre_);
       pose = pose * move;
     }
-    return {pose, w.covariance, Matrix6::Zero(), centre_};
+    return pose;
   }
 
-  /// The part of the covariance that the jitter makes: K (2 s^2 I) K', where K = (J' S^-1 J)^-1 J'
-  /// S^-1 are the weights of the residuals in the pose.
-  Matrix6 of_jitter(const Weighing& w) const {
-    const Eigen::MatrixXd weights = w.factor.matrixU().solve(w.whitened) * w.covariance;
-    return variance_ * weights.transpose() * weights;
-  }
+  const Vec3& centre() const { return centre_; }
 
  private:
   Points reference_;
@@ -175,12 +181,38 @@ class WitnessKeeper {
     return witnesses_.front();
   }
 
+  /// For amplitudes between those of the grid: estimators interpolated linearly in the square of
+  /// each amplitude, as covariances grow with it. Each fits an exact motion of the head exactly, so
+  /// their mean does. `at`: places on the grid, of upper and lower face.
+  Estimator between(const std::array<double, 2>& at) {
+    std::array<int, 2> below{};
+    std::array<double, 2> part{};
+    for (std::size_t i = 0; i < 2; ++i) {
+      const double inside = std::clamp(at[i], 0.0, kAmplitudes - 1.0);
+      below[i] = std::min(int(inside), kAmplitudes - 2);
+      part[i] = (std::exp2(2 * (inside - below[i])) - 1) / 3;
+    }
+    Estimator out;
+    for (const int up : {0, 1})
+      for (const int low : {0, 1}) {
+        const double weight = (up ? part[0] : 1 - part[0]) * (low ? part[1] : 1 - part[1]);
+        if (weight == 0) continue;
+        const Estimator& one = weighing({below[0] + up, below[1] + low}).pose;
+        if (out.gain.size() == 0) out.gain = Eigen::MatrixXd::Zero(6, one.gain.cols());
+        out.gain += weight * one.gain;
+        out.covariance += weight * one.covariance;
+        out.of_jitter += weight * one.of_jitter;
+      }
+    return out;
+  }
+
   /// The most likely amplitudes of a sample on the grid. A descent starts from `before` and another
   /// from usual amplitudes, since there may be more than one minimum.
   std::array<int, 2> likeliest(const Sample& sample, const std::array<int, 2>& before) {
     const Witnesses& witnesses = of(sample.seen);
     const Eigen::VectorXd residual =
         witnesses.residual(sample.now, witnesses.rough_pose(sample.now));
+    misfits_.setConstant(std::nan(""));
     const auto near = downhill(before, residual);
     const auto far = downhill({kUsualIndex, kUsualIndex}, residual);
     return misfit(far, residual) < misfit(near, residual) ? far : near;
@@ -205,12 +237,21 @@ class WitnessKeeper {
     return at;
   }
 
-  double misfit(const std::array<int, 2>& at, const Eigen::VectorXd& residual) {
-    const Amplitudes a = {std::ldexp(kLeastAmplitude, at[0]), std::ldexp(kLeastAmplitude, at[1])};
+  static Amplitudes amplitudes_at(const std::array<int, 2>& at) {
+    return {std::ldexp(kLeastAmplitude, at[0]), std::ldexp(kLeastAmplitude, at[1])};
+  }
+
+  const Witnesses::Weighing& weighing(const std::array<int, 2>& at) {
     auto found = weighings_.find(at);
     if (found == weighings_.end())
-      found = weighings_.emplace(at, witnesses_.front().weigh(a)).first;
-    return Witnesses::misfit(found->second, residual, a);
+      found = weighings_.emplace(at, witnesses_.front().weigh(amplitudes_at(at))).first;
+    return found->second;
+  }
+
+  double misfit(const std::array<int, 2>& at, const Eigen::VectorXd& residual) {
+    double& known = misfits_(at[0], at[1]);
+    if (std::isnan(known)) known = Witnesses::misfit(weighing(at), residual, amplitudes_at(at));
+    return known;
   }
 
   const Motion& motion_;
@@ -219,13 +260,14 @@ class WitnessKeeper {
   std::vector<int> seen_;
   std::vector<Witnesses> witnesses_;  // none or one
   std::map<std::array<int, 2>, Witnesses::Weighing> weighings_;
+  Eigen::Matrix<double, kAmplitudes, kAmplitudes> misfits_;  // of the present sample; NaN: unknown
 };
 
-/// The most likely amplitudes at sample k; their logarithms are smoothed over time.
+/// The most likely amplitudes at sample k, as places on the grid, smoothed over time.
 template <typename Times, typename Found>
-Amplitudes smoothed(const Times& time_s, const Found& found, std::size_t k) {
+std::array<double, 2> smoothed(const Times& time_s, const Found& found, std::size_t k) {
   constexpr double kFar = 4;
-  Amplitudes out;
+  std::array<double, 2> out{};
   for (std::size_t part = 0; part < 2; ++part) {
     double sum = 0, weights = 0;
     const auto add = [&](std::size_t j) {
@@ -238,7 +280,7 @@ Amplitudes smoothed(const Times& time_s, const Found& found, std::size_t k) {
     };
     for (std::size_t j = k; j < found.size() && add(j);) ++j;
     for (std::size_t j = k; j > 0 && add(j - 1);) --j;
-    out[part] = kLeastAmplitude * std::exp2(sum / weights);
+    out[part] = sum / weights;
   }
   return out;
 }
@@ -277,13 +319,12 @@ std::vector<UncertainPose> expressive_poses(const Motion& motion,
   for (std::size_t k = 0; k < samples; ++k) {
     const Sample sample = sample_of(motion.positions[k], landmarks);
     const Witnesses& witnesses = keeper.of(sample.seen);
-    const Amplitudes a = smoothed(motion.time_s, found, k);
-    poses.push_back(
-        witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)));
-    const Witnesses::Weighing wide =
-        witnesses.weigh({std::max(a[0], kUpperWithLower * a[1]), std::max(a[0], a[1])});
-    poses.back().covariance = wide.covariance;
-    poses.back().of_jitter = witnesses.of_jitter(wide);
+    const auto [upper, lower] = smoothed(motion.time_s, found, k);
+    const Eigen::Isometry3d pose = witnesses.refined(keeper.between({upper, lower}), sample.now,
+                                                     witnesses.rough_pose(sample.now));
+    const Estimator wide = keeper.between(
+        {std::max(upper, lower + std::log2(kUpperWithLower)), std::max(upper, lower)});
+    poses.push_back({pose, wide.covariance, wide.of_jitter, witnesses.centre()});
     progress.update(long(samples + k + 1));
   }
   return poses;
@@ -321,8 +362,8 @@ Eigen::Isometry3d ExpressivePoseStream::pose(double time_s, const Points& positi
     m.found.pop_front();
   }
   const Witnesses& witnesses = m.keeper.of(sample.seen);
-  const Amplitudes a = smoothed(m.time_s, m.found, m.found.size() - 1);
-  return witnesses.refined(witnesses.weigh(a), sample.now, witnesses.rough_pose(sample.now)).pose;
+  const Estimator estimator = m.keeper.between(smoothed(m.time_s, m.found, m.found.size() - 1));
+  return witnesses.refined(estimator, sample.now, witnesses.rough_pose(sample.now));
 }
 
 }  // namespace hyperex::motion

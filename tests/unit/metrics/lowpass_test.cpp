@@ -91,5 +91,79 @@ TEST(Lowpass, TheFloorOfSpeedIsThatOfWhiteNoise) {
   EXPECT_EQ(speed_floor(t, 0, cutoff_hz).peak_mm_s, 0);
 }
 
+/// What the spline minimises, at values f with the second derivatives g at the inner samples of a
+/// natural spline through them.
+double cost(const std::vector<double>& t, const Eigen::VectorXd& y, const Eigen::VectorXd& f) {
+  const auto n = Eigen::Index(t.size());
+  const auto h = [&](Eigen::Index i) { return t[std::size_t(i + 1)] - t[std::size_t(i)]; };
+  Eigen::MatrixXd r = Eigen::MatrixXd::Zero(n - 2, n - 2);
+  Eigen::VectorXd bent(n - 2);
+  for (Eigen::Index j = 0; j < n - 2; ++j) {
+    r(j, j) = (h(j) + h(j + 1)) / 3;
+    if (j + 1 < n - 2) r(j, j + 1) = r(j + 1, j) = h(j + 1) / 6;
+    bent(j) = (f(j + 2) - f(j + 1)) / h(j + 1) - (f(j + 1) - f(j)) / h(j);
+  }
+  const Eigen::VectorXd g = r.llt().solve(bent);
+  double sum = std::pow(2 * M_PI * cutoff_hz, -4) * g.dot(r * g);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    const double weight = i == 0 ? h(0) : i == n - 1 ? h(n - 2) : (h(i - 1) + h(i)) / 2;
+    sum += weight * std::pow(y(i) - f(i), 2);
+  }
+  return sum;
+}
+
+TEST(Lowpass, MinimisesTheCostOfASmoothingSpline) {
+  std::vector<double> t = {0, 0.02, 0.07, 0.08, 0.12, 0.2, 0.21, 0.27, 0.3};
+  std::mt19937 engine(4);
+  std::normal_distribution<double> normal(0, 1);
+  Points track(Eigen::Index(t.size()), 3);
+  for (double& value : track.reshaped()) value = normal(engine);
+  const SmoothTrack smooth = lowpassed(t, track, cutoff_hz);
+  const Eigen::VectorXd y = track.col(1), f = smooth.value.col(1);
+  const double least = cost(t, y, f);
+  for (Eigen::Index i = 0; i < f.size(); ++i)
+    for (const double step : {-1e-3, 1e-3}) {
+      Eigen::VectorXd other = f;
+      other(i) += step;
+      EXPECT_GT(cost(t, y, other), least) << i;
+    }
+}
+
+TEST(Lowpass, OneFilterServesTracksWithAndWithoutGaps) {
+  const auto t = times(90, 30);
+  Points track = sines(t, 2), gaps = track;
+  gaps.middleRows(40, 5).setConstant(NAN);
+  const LowpassFilter filter(t, cutoff_hz);
+  EXPECT_EQ(filter(track).value, lowpassed(t, track, cutoff_hz).value);
+  const SmoothTrack bridged = filter(gaps);
+  EXPECT_TRUE(std::isnan(bridged.value(42, 0)));
+  EXPECT_NEAR(bridged.value(39, 0), filter(track).value(39, 0), 0.02);
+}
+
+/// A long recording has its floor from fewer tracks of noise.
+TEST(Lowpass, TheFloorOfALongRecordingHoldsToo) {
+  const auto t = times(24000, 120);
+  const double jitter_m = 0.2e-3;
+  const SpeedFloor floor = speed_floor(t, jitter_m, cutoff_hz);
+  std::mt19937 engine(9);
+  std::normal_distribution<double> normal(0, 1e3 * jitter_m);
+  const LowpassFilter filter(t, cutoff_hz);
+  Points noise(Eigen::Index(t.size()), 3);
+  int below = 0, shorter = 0;
+  for (int draw = 0; draw < 40; ++draw) {
+    for (double& value : noise.reshaped()) value = normal(engine);
+    const SmoothTrack smooth = filter(noise);
+    const Eigen::VectorXd speed = smooth.rate.rowwise().norm();
+    below += greatest_inside(t, {speed.begin(), speed.end()}, cutoff_hz) < floor.peak_mm_s;
+    const Eigen::Index steps = noise.rows() - 1;
+    shorter +=
+        (smooth.value.bottomRows(steps) - smooth.value.topRows(steps)).rowwise().norm().sum() <
+        floor.path_mm;
+  }
+  EXPECT_GE(below, 32);
+  EXPECT_GE(shorter, 32);
+  EXPECT_LT(floor.path_mm / floor.rms_mm_s, 1.01 * t.back());
+}
+
 }  // namespace
 }  // namespace hyperex::metrics
