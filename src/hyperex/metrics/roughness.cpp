@@ -31,7 +31,7 @@ class Around {
     for (std::size_t i = 0; i < found_.size(); ++i)
       for (const int w : neighbours_[std::size_t(found_[i])]) {
         if (seen_[std::size_t(w)] == v ||
-            (points_.row(w) - points_.row(v)).norm() > kRoughnessReach_m)
+            (points_.row(w) - points_.row(v)).squaredNorm() > kRoughnessReach_m * kRoughnessReach_m)
           continue;
         seen_[std::size_t(w)] = v;
         found_.push_back(w);

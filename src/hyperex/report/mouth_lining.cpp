@@ -91,9 +91,16 @@ class Hulls {
  private:
   static constexpr double kStep_m = 0.0015, kBeyond_m = 0.008;
   static constexpr std::size_t kTurns = 64;
-  static Eigen::Vector2d normal(std::size_t k) {
-    const double turn = 2 * kPi * double(k) / double(kTurns);
-    return {std::cos(turn), std::sin(turn)};
+  static const Eigen::Vector2d& normal(std::size_t k) {
+    static const std::array<Eigen::Vector2d, kTurns> all = [] {
+      std::array<Eigen::Vector2d, kTurns> out;
+      for (std::size_t turn = 0; turn < kTurns; ++turn) {
+        const double angle = 2 * kPi * double(turn) / double(kTurns);
+        out[turn] = {std::cos(angle), std::sin(angle)};
+      }
+      return out;
+    }();
+    return all[k];
   }
 
   std::vector<std::vector<double>> support_;  // per slice and turn
@@ -212,18 +219,37 @@ std::array<Vec3, kRings> rings_behind(const Hulls& hulls, const Room& room, cons
   return out;
 }
 
+/// The triangles near `rest`. What lies farther away is far behind all of the skin.
+TriMesh near_part(const TriMesh& skin, const Points& rest) {
+  constexpr double around_m = 0.02;
+  const Eigen::Array3d low = rest.colwise().minCoeff().transpose().array() - around_m,
+                       high = rest.colwise().maxCoeff().transpose().array() + around_m;
+  std::vector<char> near(std::size_t(skin.points.rows()));
+  for (Index v = 0; v < skin.points.rows(); ++v) {
+    const Eigen::Array3d p = skin.points.row(v).transpose().array();
+    near[std::size_t(v)] = (p >= low).all() && (p <= high).all();
+  }
+  std::vector<Index> rows;
+  for (Index t = 0; t < skin.triangles.rows(); ++t)
+    if (near[std::size_t(skin.triangles(t, 0))] || near[std::size_t(skin.triangles(t, 1))] ||
+        near[std::size_t(skin.triangles(t, 2))])
+      rows.push_back(t);
+  return {skin.points, skin.triangles(rows, Eigen::all)};
+}
+
 /// Sets vertices back that come through the skin. The triangles at the edge do not determine which
 /// side is inside.
 void keep_behind(Points& rest, Index edge, const TriMesh& skin) {
   constexpr double behind_m = 0.0015, looks_along = 0.7;
-  const SurfaceTree tree(skin);
+  const TriMesh near = near_part(skin, rest);
+  const SurfaceTree tree(near);
   const Points normals = vertex_normals(skin);
   const std::vector<ClosestPoint> nearest = tree.query_all(rest);
   for (Index v = edge; v < rest.rows(); ++v) {
     const ClosestPoint& at = nearest[std::size_t(v)];
     Vec3 out = Vec3::Zero();
     for (int k = 0; k < 3; ++k)
-      out += at.weights[k] * normals.row(skin.triangles(at.triangle, k)).transpose();
+      out += at.weights[k] * normals.row(near.triangles(at.triangle, k)).transpose();
     out.normalize();
     const Vec3 off = rest.row(v).transpose() - at.point;
     const double beyond = off.dot(out);
