@@ -35,6 +35,9 @@ class FiniteStrain {
   /// Sets other material values with the same law. The history of the branches is discarded.
   void set_material(const Material& material);
 
+  /// The law of small strain: its tangent is the same at any displacement.
+  bool linear() const { return law_.law == HyperelasticLaw::linear; }
+
   /// Begins the step from `last` (the displacement at t; `before` is that at t-1). From now on,
   /// energy(), its gradient and tangent() include the potentials of the step from `last` to their
   /// argument. The potential of viscosity is
@@ -95,7 +98,6 @@ class FiniteStrain {
     Eigen::Matrix3d stress;  // sum of the branches, constant within the step
     double viscosity;        // 2 eta J* now
   };
-  bool linear() const { return law_.law == HyperelasticLaw::linear; }
   bool has_rates() const { return viscous_ || !law_.branches.empty(); }
   Eigen::Matrix3d gradient_at(const Eigen::VectorXd& d, Eigen::Index t) const;
   double ratio_of(const Eigen::Matrix3d& f) const;

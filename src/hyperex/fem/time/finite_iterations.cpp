@@ -72,6 +72,7 @@ bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteN
   for (int k = 0; k < options.most_iterations; ++k) {
     now.fresh = now.refactor || options.full_newton;
     if (now.fresh && !factor_at(x, report)) return false;
+    if (!now.fresh && k == 0 && !form.linear()) turn_factor();
     now.refactor = false;
     if (now.fresh) now.forgiven = 0;
     const bool jumps = !now.jumped;
@@ -96,6 +97,12 @@ bool FiniteNewton::Impl::converge(double h, const VectorXd* guess, const FiniteN
     }
   }
   return false;
+}
+
+/// The factor of an earlier part, rotated to x. Pairs of secants belong to the rotation before.
+void FiniteNewton::Impl::turn_factor() {
+  turns.update(x);
+  secants.clear();
 }
 
 /// The correction that moves the prescribed unknowns to their targets. They do work, so the energy
@@ -204,18 +211,22 @@ void FiniteNewton::Impl::find_direction(bool jump) {
   const auto& prescribed = factor->prescribed();
   delta.setZero();
   if (jump) {
+    turned_change = prescribed_change;
+    turns.turn_back(prescribed, turned_change);
     for (std::size_t i = 0; i < prescribed.size(); ++i) {
-      const double by = prescribed_change[i];
+      const double by = turned_change[Eigen::Index(i)];
       if (by == 0) continue;
       for (SparseMatrix::InnerIterator it(matrix, prescribed[i]); it; ++it)
         delta[it.row()] += by * it.value();
     }
-    for (std::size_t i = 0; i < free.size(); ++i) q[i] += delta[free[i]];
+    for (std::size_t i = 0; i < free.size(); ++i) y[i] = delta[free[i]];
+    turns.turn(free, y);
+    q += y;
     delta.setZero();
   }
   q = -q;
   right_side = q.norm();
-  secants.apply(q, [&](VectorXd& v) { factor->solve(v); });
+  secants.apply(q, [&](VectorXd& v) { solve(v); });
   for (std::size_t i = 0; i < free.size(); ++i) delta[free[i]] = q[i];
   if (jump)
     for (std::size_t i = 0; i < prescribed.size(); ++i) delta[prescribed[i]] = prescribed_change[i];

@@ -24,7 +24,7 @@ FiniteNewton::Impl::Impl(FiniteStrain& f, std::vector<int> prescribed, const Fin
                          SparseMatrix given_springs,
                          std::vector<const NodalPotential*> given_potentials,
                          std::shared_ptr<const NodeOrder> order)
-    : form(f), options(o), potentials(std::move(given_potentials)) {
+    : form(f), options(o), potentials(std::move(given_potentials)), turns(f.mesh()) {
   springs.swap(given_springs);
   const Eigen::Index n = 3 * form.mesh().node_count();
   check_matrix("the springs' matrix", springs);
@@ -42,7 +42,7 @@ FiniteNewton::Impl::Impl(FiniteStrain& f, std::vector<int> prescribed, const Fin
   factor.emplace(matrix, std::move(prescribed), "time integration at finite strain",
                  std::move(order));
   const auto count = static_cast<Eigen::Index>(factor->prescribed().size());
-  start_prescribed = prescribed_change = target = VectorXd::Zero(count);
+  start_prescribed = prescribed_change = turned_change = target = VectorXd::Zero(count);
   q = s = y = VectorXd::Zero(n - count);
   secants = Secants(n - count);
 }
@@ -207,7 +207,7 @@ void FiniteNewton::solve(VectorXd& x) {
   check_vector("the force", x, m.state.d.size(), "N");
   const auto& free = m.factor->free();
   for (std::size_t i = 0; i < free.size(); ++i) m.y[i] = x[free[i]];
-  m.factor->solve(m.y);
+  m.solve(m.y);
   x.setZero();
   for (std::size_t i = 0; i < free.size(); ++i) x[free[i]] = m.y[i];
 }

@@ -5,6 +5,7 @@
 
 #include "hyperex/fem/solve/partitioned_factor.hpp"
 #include "hyperex/fem/time/factor_age.hpp"
+#include "hyperex/fem/time/factor_turns.hpp"
 #include "hyperex/fem/time/finite_newton.hpp"
 #include "hyperex/fem/time/secants.hpp"
 
@@ -25,13 +26,14 @@ struct FiniteNewton::Impl {
   Eigen::VectorXd force_last, start_prescribed;
 
   FactorAge age;
+  FactorTurns turns;
 
   // Data of the current part of a step.
   RateRule rule;
   double mass_share = 0;
   Eigen::VectorXd x, x_hat, gradient, external, residual;  // all unknowns
-  Eigen::VectorXd trial, trial_gradient, delta, from_hat, mass_u, prescribed_change, target,
-      part_force;
+  Eigen::VectorXd trial, trial_gradient, delta, from_hat, mass_u, prescribed_change, turned_change,
+      target, part_force;
   Eigen::VectorXd q, s, y;  // free unknowns
   Secants secants{0};
   double energy_scale = 0, right_side = 0;
@@ -44,6 +46,7 @@ struct FiniteNewton::Impl {
   void place_springs();
   void fill_matrix(const Eigen::VectorXd& d, bool projected);
   bool factor_at(const Eigen::VectorXd& d, FiniteStepReport& report);
+  void solve(Eigen::VectorXd& rhs);  // free unknowns
   double potential(const Eigen::VectorXd& d, Eigen::VectorXd& out);
 
   // Steps (finite_newton.cpp).
@@ -67,6 +70,7 @@ struct FiniteNewton::Impl {
                 FiniteStepReport& report);
   void begin(double h, const Eigen::VectorXd* guess);
   void find_residual();
+  void turn_factor();
   void find_direction(bool jump);
   Move jump(Iterations& now);
   Move descend(Iterations& now, FiniteStepReport& report);

@@ -39,6 +39,7 @@ void FiniteNewton::Impl::fill_matrix(const VectorXd& d, bool projected) {
 bool FiniteNewton::Impl::factor_at(const VectorXd& d, FiniteStepReport& report) {
   secants.clear();
   age.renew(rule.now);
+  turns.factored_at(d);
   fill_matrix(d, false);
   ++report.factorisations;
   age.rough = factor->try_refactor(matrix) >= 0;
@@ -47,6 +48,13 @@ bool FiniteNewton::Impl::factor_at(const VectorXd& d, FiniteStepReport& report) 
   ++report.factorisations;
   ++report.projections;
   return factor->try_refactor(matrix) < 0;
+}
+
+/// By the present factor, rotated with the tissue.
+void FiniteNewton::Impl::solve(VectorXd& rhs) {
+  turns.turn_back(factor->free(), rhs);
+  factor->solve(rhs);
+  turns.turn(factor->free(), rhs);
 }
 
 /// The incremental potential without external forces, and its gradient.

@@ -3,12 +3,12 @@
 
 #include <tbb/parallel_for.h>
 
+#include "hyperex/fem/form/node_rotation.hpp"
+
 namespace hyperex::simulate {
 namespace {
 /// Forces smaller than this share of the greatest act nowhere.
 constexpr double kNoForce = 1e-9;
-constexpr int kMostPolarSteps = 20;
-constexpr double kEnough = 1e-10;
 }  // namespace
 
 NodeRotations::NodeRotations(const fem::Assembler& assembler, const Eigen::MatrixXd& forces)
@@ -22,24 +22,7 @@ NodeRotations::NodeRotations(const fem::Assembler& assembler, const Eigen::Matri
 
 void NodeRotations::update(const Eigen::VectorXd& d) {
   tbb::parallel_for(std::size_t(0), nodes_.size(), [&](std::size_t i) {
-    Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-    double volume = 0;
-    for (const int t : assembler_.tets_around()[nodes_[i]]) {
-      const fem::Tet4& shape = assembler_.shapes()[std::size_t(t)];
-      const auto& corner = assembler_.corners()[std::size_t(t)];
-      for (int a = 0; a < 4; ++a)
-        mean += shape.volume * d.segment<3>(3 * corner[std::size_t(a)]) * shape.gradient.row(a);
-      volume += shape.volume;
-    }
-    mean = mean / volume + Eigen::Matrix3d::Identity();
-    if (!(mean.determinant() > 0)) return;
-    for (int k = 0; k < kMostPolarSteps; ++k) {
-      const Eigen::Matrix3d next = 0.5 * (mean + mean.inverse().transpose());
-      const double change = (next - mean).cwiseAbs().maxCoeff();
-      mean = next;
-      if (change < kEnough) break;
-    }
-    rotation_[i] = mean;
+    rotation_[i] = fem::node_rotation(assembler_, d, nodes_[i], rotation_[i]);
   });
 }
 

@@ -6,9 +6,7 @@
 
 namespace hyperex::simulate {
 
-/// The rotation of the tissue at nodes: the orthogonal polar factor of the mean deformation
-/// gradient around each node, weighted by volume, by Higham's iteration (SIAM J. Sci. Stat. Comput.
-/// 7, 1986). A node whose mean gradient has a negative determinant keeps its last rotation.
+/// The rotation of the tissue at nodes (fem::node_rotation).
 class NodeRotations {
  public:
   /// For the nodes on which any of the forces (columns of 3 |nodes| rows) act. `assembler` must
