@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/ct/iso_surface.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <unordered_map>
+#include <utility>
+
+namespace hyperex::ct {
+namespace {
+
+constexpr double kClearOfEnds = 0.02;  // of an edge
+
+/// Corner c of a cell lies at (c & 1, c >> 1 & 1, c >> 2). The tetrahedra are the six ways from
+/// corner 0 to corner 7 along the axes, all positively oriented in index space.
+constexpr std::array<std::array<int, 4>, 6> kTetrahedra = {
+    {{0, 1, 3, 7}, {0, 3, 2, 7}, {0, 2, 6, 7}, {0, 6, 4, 7}, {0, 4, 5, 7}, {0, 5, 1, 7}}};
+
+class Marcher {
+ public:
+  Marcher(const Volume& volume, double iso_hu)
+      : volume_(volume), iso_(float(iso_hu)), mirrored_(volume.step_m.determinant() < 0) {}
+
+  TriMesh surface() {
+    for (int k = 0; k + 1 < volume_.size[2]; ++k) {
+      for (int j = 0; j + 1 < volume_.size[1]; ++j)
+        for (int i = 0; i + 1 < volume_.size[0]; ++i) cell(i, j, k);
+      forget_below(k + 1);
+    }
+    TriMesh mesh;
+    mesh.points = Eigen::Map<const Points>(points_.data(), Eigen::Index(points_.size() / 3), 3);
+    mesh.triangles =
+        Eigen::Map<const Triangles>(triangles_.data(), Eigen::Index(triangles_.size() / 3), 3);
+    return mesh;
+  }
+
+ private:
+  /// A corner of the grid.
+  struct Corner {
+    std::size_t at = 0;
+    float value = 0;
+    std::array<int, 3> index{};
+    bool inside = false;
+  };
+  /// An edge of the grid by its lower end and its direction (1 to 7, the bits of its steps).
+  struct Edge {
+    std::size_t from;
+    int way;
+    bool operator==(const Edge&) const = default;
+  };
+  struct HashOfEdge {
+    std::size_t operator()(const Edge& e) const {
+      return (e.from * 8 + std::size_t(e.way)) * 11400714819323198485ULL;
+    }
+  };
+
+  void cell(int i, int j, int k) {
+    std::array<Corner, 8> corner;
+    int inside = 0;
+    for (int c = 0; c < 8; ++c) {
+      Corner& one = corner[std::size_t(c)];
+      one.index = {i + (c & 1), j + (c >> 1 & 1), k + (c >> 2)};
+      one.at = volume_.at(one.index[0], one.index[1], one.index[2]);
+      one.value = volume_.hu[one.at];
+      if (std::isnan(one.value)) return;
+      one.inside = one.value >= iso_;
+      inside += one.inside ? 1 : 0;
+    }
+    if (inside == 0 || inside == 8) return;
+    for (const auto& tetrahedron : kTetrahedra) cut(corner, tetrahedron);
+  }
+
+  void cut(const std::array<Corner, 8>& corner, std::array<int, 4> t) {
+    const auto in = [&](int c) { return corner[std::size_t(c)].inside; };
+    const auto count = std::count_if(t.begin(), t.end(), in);
+    if (count == 0 || count == 4) return;
+    // Even permutations alone: those of the same kind first.
+    const auto turn = [&](int a, int b, int c) {
+      const int first = t[std::size_t(a)];
+      t[std::size_t(a)] = t[std::size_t(b)], t[std::size_t(b)] = t[std::size_t(c)],
+      t[std::size_t(c)] = first;
+    };
+    const auto on = [&](int a, int b) {
+      return vertex(corner[std::size_t(t[std::size_t(a)])], corner[std::size_t(t[std::size_t(b)])]);
+    };
+    if (count != 2) {
+      const bool alone_inside = count == 1;
+      int alone = 0;
+      while (in(t[std::size_t(alone)]) != alone_inside) ++alone;
+      if (alone == 1) turn(0, 1, 2);
+      if (alone == 2) turn(0, 2, 3);
+      if (alone == 3) turn(0, 3, 1);
+      add(on(0, 1), on(0, 2), on(0, 3), alone_inside);
+      return;
+    }
+    // Two inside: brought to the places 0 and 1.
+    int second = 1;
+    if (!in(t[0])) {
+      int first = 1;
+      while (!in(t[std::size_t(first)])) ++first;
+      if (first == 1) turn(0, 1, 2);
+      if (first == 2) turn(0, 2, 3);
+      if (first == 3) turn(0, 3, 1);
+    }
+    while (!in(t[std::size_t(second)])) ++second;
+    if (second == 2) turn(1, 2, 3);
+    if (second == 3) turn(1, 3, 2);
+    const int a = on(0, 2), b = on(0, 3), c = on(1, 3), d = on(1, 2);
+    add(a, b, c, true);
+    add(a, c, d, true);
+  }
+
+  void add(int a, int b, int c, bool first_inside) {
+    if (first_inside == mirrored_) std::swap(b, c);
+    triangles_.insert(triangles_.end(), {a, b, c});
+  }
+
+  int vertex(const Corner& one, const Corner& other) {
+    const Corner& low = one.at < other.at ? one : other;
+    const Corner& high = one.at < other.at ? other : one;
+    const int way = (high.index[0] - low.index[0]) | (high.index[1] - low.index[1]) << 1 |
+                    (high.index[2] - low.index[2]) << 2;
+    auto& known = low.index[2] == high.index[2] ? in_plane_ : between_;
+    const auto [place, is_new] = known.try_emplace(Edge{low.at, way}, int(points_.size() / 3));
+    if (is_new) {
+      const double share = std::clamp(double(iso_ - low.value) / double(high.value - low.value),
+                                      kClearOfEnds, 1 - kClearOfEnds);
+      Vec3 index;
+      for (int a = 0; a < 3; ++a)
+        index[a] = low.index[std::size_t(a)] +
+                   share * (high.index[std::size_t(a)] - low.index[std::size_t(a)]);
+      const Vec3 p = volume_.place(index.x(), index.y(), index.z());
+      points_.insert(points_.end(), {p.x(), p.y(), p.z()});
+    }
+    return place->second;
+  }
+
+  /// Edges that later cells do not have.
+  void forget_below(int plane) {
+    between_.clear();
+    const std::size_t first = volume_.at(0, 0, plane);
+    std::erase_if(in_plane_, [&](const auto& edge) { return edge.first.from < first; });
+  }
+
+  const Volume& volume_;
+  const float iso_;
+  const bool mirrored_;
+  std::vector<double> points_;
+  std::vector<int> triangles_;
+  std::unordered_map<Edge, int, HashOfEdge> in_plane_, between_;
+};
+
+}  // namespace
+
+TriMesh iso_surface(const Volume& volume, double iso_hu) {
+  return Marcher(volume, iso_hu).surface();
+}
+
+}  // namespace hyperex::ct
