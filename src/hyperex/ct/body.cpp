@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kAlwaysThere = 0.95, kAroundCouch_m = 2.5e-3, kThin_m = 3e-3;
 constexpr double kBall_m = 4e-3, kDeep_m = 6e-3;
-constexpr double kLeastHead_m3 = 20e-6;
+constexpr double kLeastHead_m3 = 20e-6, kLeastStack_m = 0.06;
 
 /// The columns of a volume along one of its indices, as a plane of the two others.
 class Columns {
@@ -29,6 +29,7 @@ class Columns {
   }
   const Grid& grid() const { return grid_; }
   std::size_t count() const { return std::size_t(grid_.size[0]) * grid_.size[1]; }
+  double height_m() const { return length() * volume_.step_m.col(along_).norm(); }
   int length() const { return volume_.size[std::size_t(along_)]; }
   std::size_t voxel(std::size_t column, int n) const {
     std::array<int, 3> index{};
@@ -92,6 +93,7 @@ Box outline_of(const Mask& mask, const Columns& columns, const Grid& grid) {
 /// Flags of the columns that are couch, with what is around them.
 Mask couch_columns(const Mask& mask, const Columns& columns, const Grid& grid) {
   Mask always(columns.count(), 0);
+  if (columns.height_m() < kLeastStack_m) return always;
   for (std::size_t c = 0; c < columns.count(); ++c) {
     int there = 0;
     for (int n = 0; n < columns.length(); ++n) there += mask[columns.voxel(c, n)];
@@ -208,6 +210,7 @@ Body find_body(const Volume& volume, const Thresholds& thresholds, const std::st
     if (mask[v] != 0 && out.mask[v] == 0) out.volume.hu[v] = float(thresholds.air_hu);
   }
   out.couch = removed > 0;
+  out.too_low_for_couch = columns.height_m() < kLeastStack_m;
   out.couch_cm3 = double(removed) * volume.voxel_m3() * 1e6;
   out.cavities_cm3 = double(fill_cavities(out.volume, out.mask, grid, float(thresholds.soft_hu))) *
                      volume.voxel_m3() * 1e6;

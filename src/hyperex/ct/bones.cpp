@@ -16,7 +16,7 @@ namespace {
 
 constexpr double kStep_hu = 25, kMostRise_hu = 1200;
 constexpr double kLeastVolume_m3 = 8e-6, kLeastWidth_m = 0.055, kMiddle_m = 0.015;
-constexpr double kBelow_m = 0.03, kBehind_m = 0.04;
+constexpr double kBelow_m = 0.03, kBehind_m = 0.04, kFragment_m3 = 0.1e-6;
 constexpr double kSeedReach_m = 6e-3, kSeedBall_m = 3e-3;
 constexpr std::uint8_t kNeither = 3;  // a marker
 
@@ -64,10 +64,9 @@ struct Extent {
 };
 
 /// The pieces of bone at one level that are large enough to be looked at.
-std::vector<Extent> extents_of(const Volume& volume, const Pieces& pieces) {
+std::vector<Extent> extents_of(const Volume& volume, const Pieces& pieces, double least_m3) {
   std::size_t large = 1;
-  while (large < pieces.count.size() &&
-         double(pieces.count[large]) * volume.voxel_m3() >= kLeastVolume_m3)
+  while (large < pieces.count.size() && double(pieces.count[large]) * volume.voxel_m3() >= least_m3)
     ++large;
   std::vector<Extent> out(std::max<std::size_t>(large, 2));
   for (int k = 0; k < volume.size[2]; ++k)
@@ -124,7 +123,7 @@ class Separation {
       progress.update(long(rise / kStep_hu));
       const Pieces pieces = pieces_at(bone_hu_ + rise);
       if (pieces.count.size() < 3) continue;
-      const std::vector<Extent> extents = extents_of(bone_, pieces);
+      const std::vector<Extent> extents = extents_of(bone_, pieces, kLeastVolume_m3);
       for (std::size_t p = 2; p < extents.size(); ++p)
         if (is_mandible(extents[p], extents[1]))
           return of_pieces(pieces, 1, int(p), bone_hu_ + rise);
@@ -182,10 +181,14 @@ class Separation {
   }
   Markers of_pieces(const Pieces& pieces, int skull, int mandible, double level_hu) const {
     Markers out{Mask(bone_.count(), 0), level_hu, true};
+    std::vector<std::uint8_t> label(pieces.count.size(), 0);
+    // At a high value the skull is in several pieces; those above the mandible are its own.
+    const std::vector<Extent> extents = extents_of(bone_, pieces, kFragment_m3);
+    for (std::size_t p = 1; p < extents.size(); ++p)
+      if (extents[p].middle().y() > extents[std::size_t(mandible)].high.y()) label[p] = kSkull;
+    label[std::size_t(skull)] = kSkull, label[std::size_t(mandible)] = kMandible;
     for (std::size_t v = 0; v < out.mask.size(); ++v)
-      out.mask[v] = pieces.number[v] == skull      ? kSkull
-                    : pieces.number[v] == mandible ? kMandible
-                                                   : 0;
+      out.mask[v] = label[std::size_t(pieces.number[v])];
     return out;
   }
 

@@ -5,9 +5,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/run_together.hpp"
 #include "hyperex/ct/iso_surface.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/geometry/thin_mesh.hpp"
@@ -42,9 +45,7 @@ TriMesh largest_component(const TriMesh& mesh) {
   return {mesh.points(source, Eigen::all), triangles};
 }
 
-TriMesh surface_of(const char* label, const Volume& volume, double iso_hu, double edge_m,
-                   bool one_piece) {
-  Progress progress(label, 0);
+TriMesh thinned_surface(const Volume& volume, double iso_hu, double edge_m, bool one_piece) {
   TriMesh mesh = iso_surface(volume, iso_hu);
   if (one_piece) mesh = largest_component(mesh);
   if (mesh.triangles.rows() == 0) return mesh;
@@ -73,6 +74,8 @@ void note_values(CtFace& face) {
                     "on it is flat "
                     "there.",
                     face.body.couch_cm3));
+  if (face.body.too_low_for_couch)
+    face.warnings.push_back("The slices reach over less than 60 mm: no couch was looked for.");
   if (face.body.cavities_cm3 > 0.05)
     face.notes.push_back(
         fmt::format("{:.1f} cm^3 of air inside the head were taken for tissue in the "
@@ -97,30 +100,41 @@ void note_teeth(CtFace& face) {
                     voxel * 1e3));
 }
 
-void take_bones(CtFace& face, const CtOptions& options) {
+/// Skin and bones, side by side.
+void take_surfaces(CtFace& face, const CtOptions& options) {
+  std::vector<std::function<void()>> all = {[&] {
+    face.skin =
+        thinned_surface(face.body.volume, face.thresholds.skin_hu, kSkinEdge_m, /*one_piece=*/true);
+  }};
+  Bones found;
+  const auto add_part = [&](int part, TriMesh& to) {
+    all.emplace_back([&, part] {
+      to = thinned_surface(bone_alone(face.body, found, part, face.thresholds),
+                           face.thresholds.bone_hu, kBoneEdge_m, /*one_piece=*/false);
+    });
+  };
+  if (!options.own.given()) {
+    found = find_bones(face.body, face.thresholds, options.seeds, face.series.shown);
+    face.separated = found.separated;
+    face.level_hu = found.level_hu;
+    face.seeded = options.seeds.has_value();
+    add_part(kSkull, face.bones.skull);
+    if (found.separated) add_part(kMandible, face.bones.mandible);
+  }
+  {
+    Progress progress("the surfaces", 0);
+    run_together(all);
+  }
   if (options.own.given()) {
     face.bones = read_own_bones(options.own, face.skin);
     face.own_bones = true;
     face.separated = face.bones.mandible.triangles.rows() > 0;
-    return;
   }
-  const Bones found =
-      find_bones(face.body, face.thresholds, options.seeds, options.source.string());
-  face.separated = found.separated;
-  face.level_hu = found.level_hu;
-  face.seeded = options.seeds.has_value();
-  const double bone_hu = face.thresholds.bone_hu;
-  face.bones.skull =
-      surface_of("the surface of the skull", bone_alone(face.body, found, kSkull, face.thresholds),
-                 bone_hu, kBoneEdge_m, false);
-  if (found.separated)
-    face.bones.mandible = surface_of("the surface of the mandible",
-                                     bone_alone(face.body, found, kMandible, face.thresholds),
-                                     bone_hu, kBoneEdge_m, false);
-  else
+  if (!face.separated && !face.own_bones)
     face.warnings.push_back(
-        "The mandible was not told from the skull and is part of its surface: give "
-        "a point in each, --seed-skull and --seed-mandible.");
+        "The mandible was not told from the skull and is part of its surface: give a point in "
+        "each, "
+        "--seed-skull and --seed-mandible.");
 }
 
 TriMesh joined(const TriMesh& a, const TriMesh& b) {
@@ -133,11 +147,11 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
 
 }  // namespace
 
-CtFace face_of_ct(const CtOptions& options) {
+CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
   CtFace face;
-  face.series = read_series(options.source, options.series);
+  face.series = std::move(series);
   face.notes = face.series.notes;
-  const std::string source = options.source.string();
+  const std::string& source = face.series.shown;
   face.thresholds = find_skin_threshold(face.series.volume, source, options.skin_hu);
   {
     Progress progress("finding head, couch and air", 0);
@@ -145,9 +159,7 @@ CtFace face_of_ct(const CtOptions& options) {
   }
   find_bone_threshold(face.body.volume, face.thresholds, options.bone_hu);
   note_values(face);
-  face.skin = surface_of("the surface of the skin", face.body.volume, face.thresholds.skin_hu,
-                         kSkinEdge_m, true);
-  take_bones(face, options);
+  take_surfaces(face, options);
   note_teeth(face);
   Progress progress("landmarks and thickness", 0);
   face.points =
@@ -156,6 +168,10 @@ CtFace face_of_ct(const CtOptions& options) {
   face.thickness = measure_thickness(face.skin, joined(face.bones.skull, face.bones.mandible),
                                      face.bounds, face.points);
   return face;
+}
+
+CtFace face_of_ct(const CtOptions& options) {
+  return face_of_series(read_series(options.source, options.series), options);
 }
 
 }  // namespace hyperex::ct

@@ -44,5 +44,7 @@ constexpr double kSkinEdge_m = 1.6e-3, kBoneEdge_m = 1.8e-3, kThinned_m = 1e-4;
 
 /// Throws InputError as read_series(), find_skin_threshold(), find_body() and find_bones() do.
 CtFace face_of_ct(const CtOptions& options);
+/// The same of a volume that was read already; `options.source` and `options.series` are not used.
+CtFace face_of_series(SeriesVolume series, const CtOptions& options = {});
 
 }  // namespace hyperex::ct

@@ -180,8 +180,11 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
     slice.series_number = int(number[0]);
   slice.survey = value_of(data, Tag(0x0008, 0x0008)).find("LOCALIZER") != std::string::npos;
   const auto frames = numbers_of(data, Tag(0x0028, 0x0008));
-  if (!read || slice.modality.empty() || !data.FindDataElement(kPixels))
-    slice.fault = "is damaged: it states no modality or holds no picture";
+  const bool has_picture = data.FindDataElement(kPixels);
+  slice.other = read && !slice.modality.empty() && slice.modality != "CT" &&
+                !has_picture;  // a report, a list of files
+  if (!read || slice.modality.empty() || !has_picture)
+    slice.fault = "is cut off or damaged: it states no modality or holds no picture";
   else if (slice.modality != "CT" || slice.survey)
     return slice;
   else if (frames.size() == 1 && frames[0] > 1)

@@ -16,6 +16,7 @@ struct DicomSlice {
   std::string series;  ///< only to be compared
   int series_number = 0;
   std::string modality;
+  bool other = false;   ///< no picture of any kind
   bool survey = false;  ///< a localizer
   std::string fault;    ///< why it cannot be used; empty where it can
   SlicePlace place;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/ct/dicom_structure.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 
@@ -8,11 +9,23 @@ namespace hyperex::ct {
 namespace {
 
 constexpr std::size_t kPreamble = 132;
-constexpr std::uint32_t kUndefined = 0xffffffff, kPicture = 0x7fe00010, kTransferSyntax = 0x00020010;
+constexpr std::uint32_t kUndefined = 0xffffffff, kPicture = 0x7fe00010,
+                        kTransferSyntax = 0x00020010;
 constexpr std::uint32_t kItem = 0xfffee000, kItemEnd = 0xfffee00d, kSequenceEnd = 0xfffee0dd;
 constexpr int kDeepest = 16;  // sequences within sequences
 constexpr std::array<std::string_view, 13> kLongLengths = {"OB", "OD", "OF", "OL", "OV", "OW", "SQ",
                                                            "SV", "UC", "UN", "UR", "UT", "UV"};
+
+/// The kinds of value that DICOM knows (PS3.5, 6.2).
+constexpr std::array<std::string_view, 34> kKinds = {
+    "AE", "AS", "AT", "CS", "DA", "DS", "DT", "FD", "FL", "IS", "LO", "LT",
+    "OB", "OD", "OF", "OL", "OV", "OW", "PN", "SH", "SL", "SQ", "SS", "ST",
+    "SV", "TM", "UC", "UI", "UL", "UN", "UR", "US", "UT", "UV"};
+
+template <std::size_t n>
+bool is_among(const std::array<std::string_view, n>& all, std::string_view one) {
+  return std::find(all.begin(), all.end(), one) != all.end();
+}
 
 /// Thrown where the walk cannot go on; caught below.
 struct Fault {
@@ -29,14 +42,9 @@ class Walk {
   void all() {
     at_ = kPreamble;
     while (at_ + 4 <= bytes_.size() && peek_tag() >> 16U == 2) element(true, 0);
+    if (at_ == bytes_.size()) throw Fault{kCut};
     check_syntax();
-    bool has_pixels = false;
-    while (at_ < bytes_.size()) {
-      const std::uint32_t tag = peek_tag();
-      element(explicit_, 0);
-      has_pixels = has_pixels || tag == kPicture;
-    }
-    if (!has_pixels) throw Fault{kCut};
+    while (at_ < bytes_.size()) element(explicit_, 0);
   }
 
  private:
@@ -82,10 +90,8 @@ class Walk {
       const std::size_t from = at_;
       skip(2);
       kind = bytes_.substr(from, 2);
-      for (const char c : kind)
-        if (c < 'A' || c > 'Z') throw Fault{kDamaged};
-      bool is_long = false;
-      for (const std::string_view one : kLongLengths) is_long = is_long || one == kind;
+      if (!is_among(kKinds, kind)) throw Fault{kDamaged};
+      const bool is_long = is_among(kLongLengths, kind);
       if (is_long) skip(2);
       length = number(is_long ? 4 : 2);
     } else {

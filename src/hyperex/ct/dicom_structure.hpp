@@ -11,8 +11,8 @@ namespace hyperex::ct {
 bool begins_as_dicom(std::string_view bytes);
 
 /// Walks through the elements of the file, those within sequences too (DICOM PS3.5, 7.1 and 7.5),
-/// and returns what is wrong with it: "" where every element lies within the file and the last is
-/// the picture. Values are not looked at, that of the transfer syntax excepted.
+/// and returns what is wrong with it: "" where every element lies within the file. Values are not
+/// looked at, that of the transfer syntax excepted.
 std::string fault_of_dicom(std::string_view bytes);
 
 }  // namespace hyperex::ct

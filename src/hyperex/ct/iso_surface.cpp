@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
-#include <limits>
-#include <unordered_map>
 #include <utility>
+#include <vector>
 
 namespace hyperex::ct {
 namespace {
@@ -25,10 +23,11 @@ class Marcher {
       : volume_(volume), iso_(float(iso_hu)), mirrored_(volume.step_m.determinant() < 0) {}
 
   TriMesh surface() {
+    begin_plane(0);
     for (int k = 0; k + 1 < volume_.size[2]; ++k) {
+      begin_plane(k + 1);
       for (int j = 0; j + 1 < volume_.size[1]; ++j)
         for (int i = 0; i + 1 < volume_.size[0]; ++i) cell(i, j, k);
-      forget_below(k + 1);
     }
     TriMesh mesh;
     mesh.points = Eigen::Map<const Points>(points_.data(), Eigen::Index(points_.size() / 3), 3);
@@ -45,18 +44,6 @@ class Marcher {
     std::array<int, 3> index{};
     bool inside = false;
   };
-  /// An edge of the grid by its lower end and its direction (1 to 7, the bits of its steps).
-  struct Edge {
-    std::size_t from;
-    int way;
-    bool operator==(const Edge&) const = default;
-  };
-  struct HashOfEdge {
-    std::size_t operator()(const Edge& e) const {
-      return (e.from * 8 + std::size_t(e.way)) * 11400714819323198485ULL;
-    }
-  };
-
   void cell(int i, int j, int k) {
     std::array<Corner, 8> corner;
     int inside = 0;
@@ -123,9 +110,10 @@ class Marcher {
     const Corner& high = one.at < other.at ? other : one;
     const int way = (high.index[0] - low.index[0]) | (high.index[1] - low.index[1]) << 1 |
                     (high.index[2] - low.index[2]) << 2;
-    auto& known = low.index[2] == high.index[2] ? in_plane_ : between_;
-    const auto [place, is_new] = known.try_emplace(Edge{low.at, way}, int(points_.size() / 3));
-    if (is_new) {
+    int& known = edges_[std::size_t(low.index[2] & 1)]
+                       [(low.at - volume_.at(0, 0, low.index[2])) * 8 + std::size_t(way)];
+    if (known < 0) {
+      known = int(points_.size() / 3);
       const double share = std::clamp(double(iso_ - low.value) / double(high.value - low.value),
                                       kClearOfEnds, 1 - kClearOfEnds);
       Vec3 index;
@@ -135,14 +123,13 @@ class Marcher {
       const Vec3 p = volume_.place(index.x(), index.y(), index.z());
       points_.insert(points_.end(), {p.x(), p.y(), p.z()});
     }
-    return place->second;
+    return known;
   }
 
-  /// Edges that later cells do not have.
-  void forget_below(int plane) {
-    between_.clear();
-    const std::size_t first = volume_.at(0, 0, plane);
-    std::erase_if(in_plane_, [&](const auto& edge) { return edge.first.from < first; });
+  /// Vertices on the edges that begin in plane k, by the value they begin at and their way: the
+  /// bits of the steps along the three indices. Planes k and k + 1 are kept.
+  void begin_plane(int k) {
+    edges_[std::size_t(k & 1)].assign(std::size_t(volume_.size[0]) * volume_.size[1] * 8, -1);
   }
 
   const Volume& volume_;
@@ -150,7 +137,7 @@ class Marcher {
   const bool mirrored_;
   std::vector<double> points_;
   std::vector<int> triangles_;
-  std::unordered_map<Edge, int, HashOfEdge> in_plane_, between_;
+  std::array<std::vector<int>, 2> edges_;
 };
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/core/quantile.hpp"
 #include "hyperex/ct/slice_picture.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
@@ -65,6 +64,17 @@ render::Image through(const render::Image& skin, const render::Image& bone) {
   return out;
 }
 
+/// The sides in white, as the picture is dark.
+render::Image with_marks(const render::Image& image, const render::SideMarks& marks) {
+  render::Canvas canvas(image);
+  const render::TextStyle left{.size_px = 18, .colour = {1, 1, 1}, .bold = true};
+  render::TextStyle right = left;
+  right.align = render::Align::right;
+  canvas.text(10, 24, marks.at_left, left);
+  canvas.text(image.width - 10, 24, marks.at_right, right);
+  return canvas.image();
+}
+
 /// The height of a landmark, or a share of the head's height.
 double height_of(const CtFace& face, const Frame& box, const char* name, double share) {
   const auto at = face.points.skin.find(name);
@@ -86,8 +96,8 @@ render::Image draw_slices(const CtFace& face) {
   sheet.columns = 3;
   const auto add = [&](const SlicePlane& plane, const std::string& caption,
                        const render::SideMarks& marks) {
-    sheet.pictures.push_back(
-        {slice_picture(face.series.volume, plane, contours, kPixelsPer_m), caption, marks});
+    const render::Image slice = slice_picture(face.series.volume, plane, contours, kPixelsPer_m);
+    sheet.pictures.push_back({with_marks(slice, marks), caption, {}});
   };
   const Vec3 left = Vec3::UnitX(), up = Vec3::UnitY(), forward = Vec3::UnitZ();
   const double nose = height_of(face, box, "pronasale", 0.5),
@@ -144,7 +154,8 @@ render::Image draw_thickness(const CtFace& face) {
   const render::Range range{0, top};
   render::ContactSheet sheet;
   sheet.title = "Thickness of the soft tissue: shortest distance to bone";
-  sheet.note = "in front of the mandible's back and above its lower edge; elsewhere plain";
+  sheet.note =
+      "in front of the mandible's back and above the lower edge of the jaw; elsewhere plain";
   sheet.columns = 3;
   sheet.bar = render::ColourBar{range, "mm", true};
   const render::RenderOptions options{.width_px = 420, .height_px = 560};

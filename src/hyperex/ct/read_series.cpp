@@ -38,7 +38,8 @@ using Group = std::vector<const DicomSlice*>;
 std::vector<Group> groups_of(const DicomFolder& folder) {
   std::map<std::pair<int, std::string>, Group> by_series;
   for (const DicomSlice& slice : folder.slices)
-    if (!slice.survey) by_series[{slice.series_number, slice.series}].push_back(&slice);
+    if (!slice.survey && !slice.other)
+      by_series[{slice.series_number, slice.series}].push_back(&slice);
   std::vector<Group> out;
   out.reserve(by_series.size());
   for (auto& [key, group] : by_series) out.push_back(std::move(group));
@@ -78,6 +79,10 @@ SeriesVolume read_folder(const fs::path& folder, const fs::path& source,
   const DicomFolder found = read_dicom_headers(folder);
   if (found.slices.empty()) refuse_folder(found, source);
   const std::string shown = found.shown(source);
+  // A file whose series cannot be read may belong to any.
+  for (const DicomSlice& slice : found.slices)
+    if (!slice.fault.empty() && slice.series.empty() && !slice.other)
+      throw InputError(shown + ": " + slice.name + " " + slice.fault);
   const std::vector<Group> groups = groups_of(found);
   if (groups.empty())
     throw InputError(shown + ": survey pictures (localizers) alone; expected the slices of a CT");
@@ -94,6 +99,7 @@ SeriesVolume read_folder(const fs::path& folder, const fs::path& source,
   const SliceStack stack = order_slices(places, shown);
   SeriesVolume out;
   out.kind = "DICOM";
+  out.shown = shown;
   out.volume = stack.grid;
   out.volume.hu.resize(out.volume.count());
   out.tilt_deg = stack.tilt_deg;
@@ -153,6 +159,7 @@ SeriesVolume read_series(const fs::path& source, const SeriesChoice& choice) {
     SeriesVolume out;
     out.kind =
         lower_case(source.filename().string()).find(".nii") != std::string::npos ? "NIfTI" : "NRRD";
+    out.shown = source.string();
     Progress progress("reading the volume", 0);
     out.volume = read_volume_file(source);
     return out;

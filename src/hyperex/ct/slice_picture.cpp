@@ -12,7 +12,7 @@
 namespace hyperex::ct {
 namespace {
 
-constexpr double kBlack_hu = -200, kWhite_hu = 1200;
+constexpr double kBlack_hu = -500, kWhite_hu = 1200;
 constexpr double kLine_px = 1.6;
 
 }  // namespace

@@ -19,7 +19,7 @@ struct Contour {
   render::Colour colour;
 };
 
-/// The values on the plane in greys from -200 (black) to 1200 HU (white), which show bone, with the
+/// The values on the plane in greys from -500 (black) to 1200 HU (white), which show bone, with the
 /// lines in which the plane cuts the surfaces. Without values it is black.
 render::Image slice_picture(const Volume& volume, const SlicePlane& plane,
                             const std::vector<Contour>& contours, double pixels_per_m);

@@ -14,7 +14,7 @@ namespace hyperex::ct {
 namespace {
 
 constexpr double kNoBone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kBelowChin_m = 5e-3;
+constexpr double kBelowJaw_m = 5e-3, kEndOfJaw_m = 0.03;
 constexpr double kForehead_m = 0.045, kHalfNose_m = 0.018, kBelowNose_m = 0.008;
 constexpr double kHalfLips_m = 0.03, kHalfChin_m = 0.025, kAboveChin_m = 0.012;
 
@@ -31,6 +31,21 @@ double first_hit(RTCScene scene, const Vec3& from, const Vec3& way) {
   rtcInitIntersectContext(&context);
   rtcIntersect1(scene, &context, &ray);
   return ray.hit.geomID == RTC_INVALID_GEOMETRY_ID ? kNoBone : double(ray.ray.tfar);
+}
+
+/// Normals of the vertices, each three times replaced by the mean over itself and its neighbours:
+/// noise of the values tilts single triangles.
+Points smooth_normals(const TriMesh& mesh) {
+  Points normals = vertex_normals(mesh);
+  const auto neighbours = vertex_neighbours(mesh.triangles, mesh.points.rows());
+  for (int round = 0; round < 3; ++round) {
+    const Points before = normals;
+    for (Eigen::Index v = 0; v < normals.rows(); ++v) {
+      for (const int other : neighbours[std::size_t(v)]) normals.row(v) += before.row(other);
+      if (const double length = normals.row(v).norm(); length > 0) normals.row(v) /= length;
+    }
+  }
+  return normals;
 }
 
 Region region_of(const Vec3& p, const FoundPoints& points) {
@@ -74,30 +89,44 @@ const char* name_of(Region region) {
 
 FaceBounds face_bounds(const TriMesh& skull, const TriMesh& mandible) {
   FaceBounds out;
-  if (mandible.points.rows() > 0) {
-    out.back_z_m = mandible.points.col(2).minCoeff();
-    out.low_y_m = mandible.points.col(1).minCoeff() - kBelowChin_m;
-  } else if (skull.points.rows() > 0) {
+  if (mandible.points.rows() == 0) {
+    if (skull.points.rows() == 0) return out;
     out.back_z_m = (skull.points.col(2).minCoeff() + skull.points.col(2).maxCoeff()) / 2;
-    out.low_y_m = skull.points.col(1).minCoeff() - kBelowChin_m;
+    out.chin_y_m = skull.points.col(1).minCoeff() - kBelowJaw_m;
+    return out;
   }
+  out.back_z_m = mandible.points.col(2).minCoeff();
+  const double front_z = mandible.points.col(2).maxCoeff();
+  Eigen::Index chin = -1, angle = -1;
+  for (Eigen::Index v = 0; v < mandible.points.rows(); ++v) {
+    const auto lower = [&](Eigen::Index than) {
+      return than < 0 || mandible.points(v, 1) < mandible.points(than, 1);
+    };
+    if (mandible.points(v, 2) >= front_z - kEndOfJaw_m && lower(chin)) chin = v;
+    if (mandible.points(v, 2) <= out.back_z_m + kEndOfJaw_m && lower(angle)) angle = v;
+  }
+  out.chin_z_m = mandible.points(chin, 2);
+  out.chin_y_m = mandible.points(chin, 1) - kBelowJaw_m;
+  const double length = out.chin_z_m - mandible.points(angle, 2);
+  if (length > 1e-3) out.rise = (mandible.points(angle, 1) - mandible.points(chin, 1)) / length;
   return out;
 }
 
 Thickness measure_thickness(const TriMesh& skin, const TriMesh& bone, const FaceBounds& bounds,
                             const FoundPoints& points) {
   const Eigen::Index count = skin.points.rows();
-  Thickness out{Eigen::VectorXd::Constant(count, kNoBone), Eigen::VectorXd::Constant(count, kNoBone),
+  Thickness out{Eigen::VectorXd::Constant(count, kNoBone),
+                Eigen::VectorXd::Constant(count, kNoBone),
                 std::vector<Region>(std::size_t(count), Region::none)};
   if (bone.triangles.rows() == 0) return out;
-  const Points normals = vertex_normals(skin);
+  const Points normals = smooth_normals(skin);
   const SurfaceTree tree(bone);
   EmbreeScene scene;
   add_triangles(scene, bone.points, bone.triangles, 0);
   commit_whole(scene);
   tbb::parallel_for(Eigen::Index(0), count, [&](Eigen::Index v) {
     const Vec3 p = skin.points.row(v).transpose(), normal = normals.row(v).transpose();
-    if (p.z() < bounds.back_z_m || p.y() < bounds.low_y_m) return;
+    if (!bounds.holds(p)) return;
     const ClosestPoint near = tree.query(p, kMostThickness_m);
     if (near.triangle < 0) return;
     out.shortest_m[v] = std::sqrt(near.squared_distance);
