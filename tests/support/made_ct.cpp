@@ -164,7 +164,7 @@ ct::Volume volume_of(const MadeHead& head, const Vec3& middle_mm, const Vec3& si
   // A voxel shows the mean over its own volume.
   std::array<int, 3> fine{};
   for (int a = 0; a < 3; ++a)
-    fine[std::size_t(a)] = std::max(1, int(std::ceil(spacing_mm[a] / 0.8 - 1e-9)));
+    fine[std::size_t(a)] = std::max(1, int(std::ceil(spacing_mm[a] - 1e-9)));
   tbb::parallel_for(0, out.size[2], [&](int k) {
     std::mt19937 random(unsigned(k) + 1);
     std::normal_distribution<double> noise(0, 1);

@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <utility>
 #include <vector>
+
+#include "hyperex/core/assert.hpp"
 
 namespace hyperex::ct {
 namespace {
@@ -114,8 +117,7 @@ class Marcher {
                        [(low.at - volume_.at(0, 0, low.index[2])) * 8 + std::size_t(way)];
     if (known < 0) {
       known = int(points_.size() / 3);
-      const double share = std::clamp(double(iso_ - low.value) / double(high.value - low.value),
-                                      kClearOfEnds, 1 - kClearOfEnds);
+      const double share = std::clamp(crossing(low, high, way), kClearOfEnds, 1 - kClearOfEnds);
       Vec3 index;
       for (int a = 0; a < 3; ++a)
         index[a] = low.index[std::size_t(a)] +
@@ -124,6 +126,35 @@ class Marcher {
       points_.insert(points_.end(), {p.x(), p.y(), p.z()});
     }
     return known;
+  }
+
+  /// Where on the edge the multilinear interpolation of the values around it has the value, 0 to 1.
+  /// On a diagonal these are the corners of its face or cell, whose places at equal shares t of all
+  /// steps weigh the corners with b steps by t^b (1 - t)^(n - b).
+  double crossing(const Corner& low, const Corner& high, int way) const {
+    std::array<double, 4> sum{};  // by the number of steps
+    const int steps = std::popcount(unsigned(way));
+    for (int part = way;; part = (part - 1) & way) {
+      sum[std::size_t(std::popcount(unsigned(part)))] +=
+          double(volume_.hu[volume_.at(low.index[0] + (part & 1), low.index[1] + (part >> 1 & 1),
+                                       low.index[2] + (part >> 2))]) -
+          iso_;
+      if (part == 0) break;
+    }
+    if (steps == 1) return sum[0] / (sum[0] - sum[1]);
+    const auto value = [&](double t) {
+      double out = 0;
+      for (int b = 0; b <= steps; ++b)
+        out += std::pow(t, b) * std::pow(1 - t, steps - b) * sum[std::size_t(b)];
+      return out;
+    };
+    double from = 0, to = 1;
+    for (int k = 0; k < 12; ++k) {
+      const double middle = (from + to) / 2;
+      ((value(middle) >= 0) == low.inside ? from : to) = middle;
+    }
+    HX_ASSERT(low.inside != high.inside);
+    return (from + to) / 2;
   }
 
   /// Vertices on the edges that begin in plane k, by the value they begin at and their way: the

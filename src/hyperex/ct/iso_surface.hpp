@@ -4,11 +4,12 @@
 
 namespace hyperex::ct {
 
-/// The surface on which the volume, linear in tetrahedra, has the value `iso_hu`: marching
+/// The surface on which the values, interpolated between their places, are `iso_hu`: marching
 /// tetrahedra (A. Doi and A. Koide, IEICE Trans. E74, 1991, 214). Each cell of eight values is cut
 /// into six tetrahedra around its diagonal, in the same way everywhere. So the surface is manifold;
 /// it has a border only where the volume ends and beside values that are NaN. Triangles are
-/// counter-clockwise seen from where values are lower. Vertices of one edge of the grid are shared.
+/// counter-clockwise seen from where values are lower. Vertices lie on edges and diagonals of
+/// the grid, where its trilinear interpolation has the value, and are shared.
 /// They keep 2 % of an edge away from its ends, so that no triangle is without area.
 TriMesh iso_surface(const Volume& volume, double iso_hu);
 

@@ -36,13 +36,19 @@ using Group = std::vector<const DicomSlice*>;
 
 /// The groups by series, in the order of their numbers; survey pictures left out.
 std::vector<Group> groups_of(const DicomFolder& folder) {
-  std::map<std::pair<int, std::string>, Group> by_series;
+  std::map<std::string, Group> by_series;
   for (const DicomSlice& slice : folder.slices)
-    if (!slice.survey && !slice.other)
-      by_series[{slice.series_number, slice.series}].push_back(&slice);
+    if (!slice.survey && !slice.other) by_series[slice.series].push_back(&slice);
   std::vector<Group> out;
   out.reserve(by_series.size());
   for (auto& [key, group] : by_series) out.push_back(std::move(group));
+  const auto number = [](const Group& group) {
+    int highest = 0;
+    for (const DicomSlice* slice : group) highest = std::max(highest, slice->series_number);
+    return highest;
+  };
+  std::stable_sort(out.begin(), out.end(),
+                   [&](const Group& a, const Group& b) { return number(a) < number(b); });
   return out;
 }
 

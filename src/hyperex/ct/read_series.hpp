@@ -17,8 +17,8 @@ struct SeriesChoice {
 /// identifiers nor the paths of files.
 struct SeriesVolume {
   Volume volume;
-  std::string kind;   ///< "DICOM", "NIfTI" or "NRRD"
-  std::string shown;  ///< the source as messages name it
+  std::string kind;     ///< "DICOM", "NIfTI" or "NRRD"
+  std::string shown;    ///< the source as messages name it
   double tilt_deg = 0;  ///< of the gantry; the steps of the volume hold it
   std::vector<std::string> notes;
 };
