@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <itkImage.h>
-#include <itkImageFileReader.h>
-#include <itkNiftiImageIO.h>
-#include <itkNrrdImageIO.h>
+#include <algorithm>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
+#include "hyperex/ct/itk_library.hpp"
 #include "hyperex/ct/read_series.hpp"
 
 namespace hyperex::ct {
@@ -19,11 +17,6 @@ bool is_nrrd(const std::string& name) {
   return name.ends_with(".nrrd") || name.ends_with(".nhdr");
 }
 
-itk::ImageIOBase::Pointer reader_for(const std::string& name) {
-  if (is_nifti(name)) return itk::NiftiImageIO::New().GetPointer();
-  return itk::NrrdImageIO::New().GetPointer();
-}
-
 }  // namespace
 
 bool is_volume_file(const fs::path& file) {
@@ -32,33 +25,24 @@ bool is_volume_file(const fs::path& file) {
 }
 
 Volume read_volume_file(const fs::path& file) {
-  itk::Object::GlobalWarningDisplayOff();  // they go to standard error
-  using Image = itk::Image<float, 3>;
-  auto reader = itk::ImageFileReader<Image>::New();
-  reader->SetFileName(file.string());
-  reader->SetImageIO(reader_for(lower_case(file.filename().string())));
-  try {
-    reader->Update();
-  } catch (const itk::ExceptionObject&) {
+  if (!fs::is_regular_file(file)) throw InputError(file, "no such file");
+  auto read =
+      itk_library().read_volume(file.string(), is_nifti(lower_case(file.filename().string())));
+  if (!read)
     throw InputError(file, "damaged, cut off, or no NIfTI or NRRD file; expected a volume");
-  }
-  const Image& image = *reader->GetOutput();
-  if (reader->GetImageIO()->GetNumberOfDimensions() != 3 ||
-      reader->GetImageIO()->GetNumberOfComponents() != 1)
+  if (read->dimensions != 3 || read->components != 1)
     throw InputError(file, "expected a volume with three axes and one value at each place");
   Volume out;
+  out.size = read->grid.size;
   Eigen::Matrix3d step_mm;
-  for (unsigned a = 0; a < 3; ++a) {
-    out.size[a] = int(image.GetLargestPossibleRegion().GetSize()[a]);
-    for (unsigned r = 0; r < 3; ++r)
-      step_mm(r, a) = image.GetDirection()[r][a] * image.GetSpacing()[a];
-    out.origin_m[a] = image.GetOrigin()[a];
-  }
-  out.origin_m = face_from_patient() * out.origin_m * 1e-3;
+  for (std::size_t a = 0; a < 3; ++a)
+    for (std::size_t r = 0; r < 3; ++r)
+      step_mm(Eigen::Index(r), Eigen::Index(a)) = read->direction[r][a] * read->grid.spacing_mm[a];
+  out.origin_m = face_from_patient() * Eigen::Map<const Vec3>(read->origin_mm.data()) * 1e-3;
   out.step_m = face_from_patient() * step_mm * 1e-3;
   if (!(out.voxel_m3() > 0) || *std::min_element(out.size.begin(), out.size.end()) < 2)
     throw InputError(file, "expected steps above 0 and at least two values along each axis");
-  out.hu.assign(image.GetBufferPointer(), image.GetBufferPointer() + out.count());
+  out.hu = std::move(read->values);
   return out;
 }
 
