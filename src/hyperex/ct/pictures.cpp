@@ -17,6 +17,7 @@ namespace {
 constexpr render::Colour kSkinLine{0.98, 0.75, 0.20}, kSkullLine{0.20, 0.85, 0.95},
     kMandibleLine{0.95, 0.35, 0.65};
 constexpr render::Colour kSkullColour{0.87, 0.84, 0.74}, kMandibleColour{0.55, 0.68, 0.86};
+constexpr render::Colour kBehindBone{0.62, 0.60, 0.57};
 constexpr double kPixelsPer_m = 2200, kMargin_m = 0.008;
 constexpr double kSkinShare = 0.38;  // of the skin's picture, over bone
 
@@ -50,10 +51,11 @@ SlicePlane plane_of(const Frame& box, const Vec3& at, const Vec3& right, const V
   return plane;
 }
 
-/// Skin that hides no bone: where no bone is, it is paler; where bone is, it shines through.
+/// Where bone is, it shines through the skin. `bone` was drawn before kBehindBone, whose colour is
+/// near that of the skin, so that no bright seam runs along the bone's outline.
 render::Image through(const render::Image& skin, const render::Image& bone) {
   render::Image out = skin;
-  const render::Image empty(1, 1);
+  const render::Image empty(1, 1, kBehindBone);
   for (std::size_t p = 0; p < out.rgb.size(); p += 3) {
     const bool is_bone =
         !std::equal(empty.rgb.begin(), empty.rgb.end(), bone.rgb.begin() + std::ptrdiff_t(p));
@@ -133,9 +135,11 @@ render::Image draw_bones_through_skin(const CtFace& face) {
     const render::Camera camera = render::framing(face.skin.points, view.to_viewer,
                                                   double(options.width_px) / options.height_px);
     const render::Image skin = render::render({{.mesh = face.skin}}, camera, options);
+    render::RenderOptions of_bones = options;
+    of_bones.background = kBehindBone;
     sheet.pictures.push_back(
-        {bones.empty() ? skin : through(skin, render::render(bones, camera, options)), view.caption,
-         render::side_marks(camera)});
+        {bones.empty() ? skin : through(skin, render::render(bones, camera, of_bones)),
+         view.caption, render::side_marks(camera)});
   }
   return render::contact_sheet(sheet);
 }
