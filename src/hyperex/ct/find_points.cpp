@@ -10,7 +10,7 @@ namespace hyperex::ct {
 namespace {
 
 constexpr double kStep_m = 5e-4, kFlat_m = 3e-4, kPatch_m = 0.015;
-constexpr double kMiddleOfFace_m = 0.03, kMidline_m = 2e-3;
+constexpr double kFromEnds_m = 0.01, kMiddleOfFace_m = 0.03, kMidline_m = 2e-3;
 constexpr double kNoseToLip_m = 0.03, kRootLow_m = 0.018, kRootHigh_m = 0.075;
 constexpr double kChin_m = 0.03, kFrontOfJaw_m = 0.025, kMiddleOfJaw_m = 0.012,
                  kChinOfBone_m = 0.02;
@@ -66,6 +66,10 @@ Vec3 pronasale_of(const FrontView& view, const TriMesh& skin, double middle_x) {
       best = v;
   if (best < 0) return Vec3::Constant(kNone);
   const Vec3 most = skin.points.row(best).transpose();
+  // At the end of a stack of slices it is the most forward of what is left of a face.
+  if (most.y() > skin.points.col(1).maxCoeff() - kFromEnds_m ||
+      most.y() < skin.points.col(1).minCoeff() + kFromEnds_m)
+    return Vec3::Constant(kNone);
   return middle_of_patch(view, most);
 }
 

@@ -14,7 +14,8 @@ struct FoundPoints {
 };
 
 /// Looks at the head from the front (along -z), through the volume `head` at `skin_hu`:
-///   pronasale  most forward of all, in the middle of the patch within 0.3 mm of it
+///   pronasale  most forward of all, in the middle of the patch within 0.3 mm of it;
+///              none within 10 mm of the skin's upper and lower end
 ///   subnasale  deepest point of the midline within 30 mm below it
 ///   nasion     deepest point of the midline 18 to 75 mm above it; none where that is an end of it
 ///   pogonion   the first most forward point of the midline above the lowest point of the chin's

@@ -154,6 +154,13 @@ TEST(Head, PointsLieWhereTheShapeHasThem) {
   EXPECT_GT(lip.y(), -30);
 }
 
+TEST(Head, AStackThatEndsBelowTheNoseHasNoNoseTip) {
+  const CtFace face =
+      face_of(test::volume_of(test::small_head(), {0, -37, 5}, {120, 130, 50}, {1, 1, 1}));
+  EXPECT_FALSE(face.points.skin.contains("pronasale"));
+  EXPECT_THAT(face.warnings, testing::Contains(HasSubstr("no couch was looked for")));
+}
+
 TEST(Head, MetalIsTold) {
   Volume volume = volume_of(test::small_head());
   for (int k = 0; k < volume.size[2]; ++k)
