@@ -120,6 +120,16 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
   }
 }
 
+TEST_F(Ct, MissesItsLibraryInWords) {
+  write("series");
+  fs::create_directories(in("elsewhere/bin"));
+  fs::copy_file(HYPEREX_PROGRAM, in("elsewhere/bin/hyperex"));
+  EXPECT_EQ(shell(in("elsewhere/bin/hyperex").string() + " ct series --out out 2>err.txt"), 2);
+  EXPECT_THAT(read_file(in("err.txt")),
+              HasSubstr("elsewhere/lib/hyperex/hx_itk.so: cannot be loaded"));
+  EXPECT_FALSE(fs::exists(in("out")));
+}
+
 TEST_F(Ct, TakesSeedsAndOwnSurfaces) {
   write("series");
   const Outcome seeded = call("ct series --out out --seed-skull 0,45,-6 --seed-mandible 0,-34,32");
