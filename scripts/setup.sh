@@ -32,6 +32,7 @@ packages=(
   libcairo2-dev fonts-dejavu-core  # pictures with words on them
   libopencv-core-dev libopencv-imgproc-dev libturbojpeg0-dev libpng-dev  # pictures of recordings
   libfreenect-dev libopenni2-dev   # depth cameras
+  libinsighttoolkit5-dev   # ITK and GDCM: CTs (129 MB of disk)
 )
 video=(libopencv-videoio-dev)  # FFmpeg, GStreamer and GDAL: 150 packages
 python=(pybind11-dev python3-dev python3-numpy)

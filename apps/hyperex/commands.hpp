@@ -11,6 +11,7 @@ namespace hyperex::cli {
 
 void add_check(CLI::App& program);
 void add_compare(CLI::App& program);
+void add_ct(CLI::App& program);
 void add_estimate(CLI::App& program);
 void add_landmarks(CLI::App& program);
 void add_mesh(CLI::App& program);

@@ -76,6 +76,7 @@ void add_subcommands(CLI::App& program) {
   hyperex::cli::add_sweep(program);
   hyperex::cli::add_landmarks(program);
   hyperex::cli::add_mesh(program);
+  hyperex::cli::add_ct(program);
   hyperex::cli::add_compare(program);
   hyperex::cli::add_symmetry(program);
   hyperex::cli::add_visits(program);

@@ -8,7 +8,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 hidden=()
 if [[ $components == fem ]]; then
-  for package in OpenCV CGAL embree nlohmann_json PkgConfig PNG TinyGLTF tinyobjloader CLI11 FlatBuffers GTest; do
+  for package in OpenCV CGAL embree nlohmann_json PkgConfig PNG TinyGLTF tinyobjloader CLI11 FlatBuffers GTest ITK; do
     hidden+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
   done
 fi

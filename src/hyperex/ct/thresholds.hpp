@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+
+#include "hyperex/ct/volume.hpp"
+
+namespace hyperex::ct {
+
+/// Grey values (HU) that the surfaces are drawn at, and what they were found from.
+struct Thresholds {
+  double skin_hu = 0, bone_hu = 0;
+  bool skin_given = false, bone_given = false;
+  double air_hu = 0, soft_hu = 0;  ///< the commonest values of air and of soft tissue
+  double noise_hu = 0;             ///< standard deviation in soft tissue, from its quartiles
+};
+
+/// The skin's value: half-way between the commonest value of air (-1100 to -850 HU) and that of
+/// soft tissue (-150 to 200 HU), as an edge blurred by the scanner lies at its middle. Throws
+/// InputError (naming `source`) where there is no air or no soft tissue: values that are no
+/// Hounsfield units, as of an MRI.
+Thresholds find_skin_threshold(const Volume& volume, const std::string& source,
+                               std::optional<double> skin_hu = {});
+
+/// Adds the bone's value, found in a volume without couch: half-way between the mean of what is
+/// below it, down to the skin's value, and the mean of what is above it (T. Ridler and S. Calvard,
+/// IEEE Trans. SMC 8, 1978, 630), within 150 to 700 HU.
+void find_bone_threshold(const Volume& body, Thresholds& thresholds,
+                         std::optional<double> bone_hu = {});
+
+}  // namespace hyperex::ct

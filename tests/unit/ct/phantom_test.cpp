@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The CT of a real head phantom, against values read from it by other means (truth.json beside it).
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <iostream>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "hyperex/core/files.hpp"
+#include "hyperex/ct/ct_face.hpp"
+#include "hyperex/geometry/closest_point.hpp"
+#include "support/refusal.hpp"
+
+namespace hyperex::ct {
+namespace {
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+const fs::path kFolder = fs::path(HYPEREX_SHARED_DIR) / "data/ct";
+
+Vec3 face_mm(const nlohmann::json& patient_mm) {
+  return face_from_patient() * Vec3(patient_mm[0], patient_mm[1], patient_mm[2]);
+}
+
+class Phantom : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!fs::exists(kFolder)) GTEST_SKIP() << "needs " << kFolder;
+    truth_ = nlohmann::json::parse(read_file(kFolder / "truth.json"))["phantom_head.zip"];
+  }
+  Vec3 point(const char* name) const { return face_mm(truth_["points_mm"][name]); }
+  nlohmann::json truth_;
+};
+
+/// Where the measured values cross `iso_hu` between neighbours along each index: other places than
+/// those of the surface's diagonals, and all that a surface may have missed.
+std::vector<Vec3> crossings(const Volume& volume, double iso_hu) {
+  std::vector<Vec3> out;
+  for (int k = 0; k + 1 < volume.size[2]; ++k)
+    for (int j = 0; j + 1 < volume.size[1]; ++j)
+      for (int i = 0; i + 1 < volume.size[0]; ++i) {
+        const double here = volume.hu[volume.at(i, j, k)];
+        const std::array<double, 3> next = {volume.hu[volume.at(i + 1, j, k)],
+                                            volume.hu[volume.at(i, j + 1, k)],
+                                            volume.hu[volume.at(i, j, k + 1)]};
+        for (int a = 0; a < 3; ++a) {
+          if ((here < iso_hu) == (next[std::size_t(a)] < iso_hu)) continue;
+          Vec3 at(i, j, k);
+          at[a] += (iso_hu - here) / (next[std::size_t(a)] - here);
+          out.push_back(volume.place(at.x(), at.y(), at.z()));
+        }
+      }
+  return out;
+}
+
+/// Slices half-way between those measured are their means: with them no two places of the cloud are
+/// much farther apart than 1 mm.
+Volume with_slices_between(const Volume& volume) {
+  Volume out = volume;
+  out.size[2] = 2 * volume.size[2] - 1;
+  out.step_m.col(2) /= 2;
+  out.hu.resize(out.count());
+  for (int k = 0; k < out.size[2]; ++k)
+    for (int j = 0; j < out.size[1]; ++j)
+      for (int i = 0; i < out.size[0]; ++i)
+        out.hu[out.at(i, j, k)] =
+            (volume.hu[volume.at(i, j, k / 2)] + volume.hu[volume.at(i, j, (k + 1) / 2)]) / 2;
+  return out;
+}
+
+/// A cloud of places as triangles without area.
+TriMesh as_mesh(const std::vector<Vec3>& cloud) {
+  TriMesh out{Points(Eigen::Index(cloud.size()), 3), Triangles(Eigen::Index(cloud.size()), 3)};
+  for (std::size_t p = 0; p < cloud.size(); ++p) {
+    out.points.row(Eigen::Index(p)) = cloud[p].transpose();
+    out.triangles.row(Eigen::Index(p)).setConstant(int(p));
+  }
+  return out;
+}
+
+/// Greatest distance (mm) of the vertices in front of the couch from the crossings. Where the
+/// mandible was cut from the skull there are none: vertices within 2.5 mm of `other` are left out.
+double farthest_from_mm(const TriMesh& mesh, const TriMesh& cloud, const TriMesh* other = nullptr) {
+  const SurfaceTree tree(cloud);
+  std::optional<SurfaceTree> cut;
+  if (other != nullptr) cut.emplace(*other);
+  double out = 0;
+  Vec3 where = Vec3::Zero();
+  int left_out = 0;
+  for (Eigen::Index v = 0; v < mesh.points.rows(); ++v) {
+    const Vec3 p = mesh.points.row(v);
+    if (p.z() < 0.115) continue;
+    if (cut && cut->query(p, 2.5e-3).triangle >= 0) {
+      ++left_out;
+      continue;
+    }
+    const double distance = std::sqrt(tree.query(p).squared_distance);
+    if (distance > out) out = distance, where = p;
+  }
+  std::cout << "  farthest " << 1e3 * out << " mm at " << 1e3 * where.transpose() << " mm, "
+            << left_out << " of " << mesh.points.rows() << " left out\n";
+  return 1e3 * out;
+}
+
+void expect_on_stated_values(const CtFace& face, double skin_hu, double bone_hu) {
+  EXPECT_NEAR(face.thresholds.skin_hu, skin_hu, 10);
+  EXPECT_NEAR(face.thresholds.bone_hu, bone_hu, 10);
+  const Volume dense = with_slices_between(face.series.volume);
+  const TriMesh skin = as_mesh(crossings(dense, skin_hu)),
+                bone = as_mesh(crossings(dense, bone_hu));
+  EXPECT_LT(farthest_from_mm(face.skin, skin), 1.0);
+  EXPECT_LT(farthest_from_mm(face.bones.skull, bone, &face.bones.mandible), 1.5);
+  EXPECT_LT(farthest_from_mm(face.bones.mandible, bone, &face.bones.skull), 1.5);
+}
+
+/// From the crossings of the skin's value, of the face alone, to the surface.
+void expect_whole_face(const CtFace& face, double skin_hu) {
+  const SurfaceTree tree(face.skin);
+  double farthest = 0;
+  int count = 0;
+  for (const Vec3& p : crossings(face.series.volume, skin_hu)) {
+    if (p.z() < 0.23 || p.y() < 0.3) continue;
+    farthest = std::max(farthest, std::sqrt(tree.query(p).squared_distance));
+    ++count;
+  }
+  EXPECT_GT(count, 10000);
+  EXPECT_LT(1e3 * farthest, 1.0);
+}
+
+void expect_no_couch(const CtFace& face, const nlohmann::json& skin_box_mm) {
+  EXPECT_TRUE(face.body.couch);
+  // Its front is near y = -107 of the patient, which is z of the face.
+  for (const TriMesh* mesh : {&face.skin, &face.bones.skull, &face.bones.mandible})
+    EXPECT_GT(1e3 * mesh->points.col(2).minCoeff(), 106);
+  EXPECT_NEAR(1e3 * face.skin.points.col(0).minCoeff(), double(skin_box_mm["x"][0]), 2);
+  EXPECT_NEAR(1e3 * face.skin.points.col(0).maxCoeff(), double(skin_box_mm["x"][1]), 2);
+}
+
+void expect_jaw(const CtFace& face) {
+  ASSERT_TRUE(face.separated);
+  const TriMesh& jaw = face.bones.mandible;
+  EXPECT_NEAR(1e3 * jaw.points.col(1).minCoeff(), 330, 2);
+  EXPECT_LT(1e3 * jaw.points.col(1).maxCoeff(), 412);
+  EXPECT_GT(1e3 * jaw.points.col(1).maxCoeff(), 395);
+  EXPECT_GT(1e3 * jaw.points.col(2).minCoeff(), 195);
+}
+
+/// A few slices of the same phantom with a tilted gantry show the same skin.
+void expect_same_skin_tilted(const CtFace& face) {
+  CtOptions options;
+  options.source = kFolder / "tilted.zip";
+  const CtFace tilted = face_of_ct(options);
+  EXPECT_NEAR(tilted.series.tilt_deg, 15, 0.1);
+  EXPECT_THAT(tilted.notes, testing::Contains(HasSubstr("tilted by 15.0 degrees")));
+  const SurfaceTree tree(face.skin);
+  double farthest = 0;
+  for (Eigen::Index v = 0; v < tilted.skin.points.rows(); ++v)
+    if (tilted.skin.points(v, 2) > 0.2)
+      farthest = std::max(
+          farthest, std::sqrt(tree.query(tilted.skin.points.row(v).transpose()).squared_distance));
+  std::cout << "  tilted: farthest " << 1e3 * farthest << " mm\n";
+  EXPECT_LT(1e3 * farthest, 1.0);
+}
+
+TEST_F(Phantom, IsMeasured) {
+  CtOptions options;
+  options.source = kFolder / "phantom_head.zip";
+  const CtFace face = face_of_ct(options);
+  const double skin_hu = truth_["iso_HU"]["skin"], bone_hu = truth_["iso_HU"]["bone"];
+  expect_on_stated_values(face, skin_hu, bone_hu);
+  expect_whole_face(face, skin_hu);
+  expect_no_couch(face, truth_["skin_bbox_mm"]);
+  expect_jaw(face);
+  const auto& points = face.points;
+  const double nose = (1e3 * points.skin.at("pronasale") - point("nose_tip")).norm(),
+               chin = (1e3 * points.skin.at("pogonion") - point("soft_pogonion")).norm();
+  std::cout << "  nose tip " << nose << ", chin " << chin << " mm from their places\n";
+  EXPECT_LT(nose, 3);
+  EXPECT_LT(chin, 3);
+  ASSERT_TRUE(points.bone_pogonion_m && points.bone_menton_m);
+  EXPECT_LT(std::abs(1e3 * points.bone_pogonion_m->z() - point("bone_pogonion").z()), 2);
+  EXPECT_LT(std::abs(1e3 * points.bone_menton_m->y() - point("bone_menton").y()), 2);
+  expect_same_skin_tilted(face);
+}
+
+TEST_F(Phantom, HostileSeriesAreNamed) {
+  const auto refused = [](const char* name) {
+    return test::refusal([&] { read_series(kFolder / name); });
+  };
+  EXPECT_THAT(refused("gap.zip"),
+              HasSubstr("1 slice is missing between z = 361.5 and z = 365.5 mm"));
+  EXPECT_THAT(refused("two_series.zip"),
+              HasSubstr("2 series in one folder (1: 9 slices of CT; 2: 9"));
+}
+
+}  // namespace
+}  // namespace hyperex::ct
