@@ -29,8 +29,8 @@ constexpr int kAmplitudes = 17, kUsualIndex = 12;
 // A weak prior against very large amplitudes, which a face with few points may suggest.
 constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
 // A motion of the brows that was taken for a motion of the head leaves no trace in the lower face,
-// and the reverse. For the covariance each part moves at least as much as the other, the upper face
-// at least half as much.
+// and the reverse. For the covariance the lower face moves at least as much as the upper one, and
+// the upper at least half as much as the lower.
 constexpr double kUpperWithLower = 0.5;
 
 Eigen::Matrix3d cross_matrix(const Vec3& v) {

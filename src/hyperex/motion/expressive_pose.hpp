@@ -32,10 +32,10 @@ std::vector<KnownLandmark> known_landmarks(const Motion& motion);
 /// the points. The jitter s of a coordinate comes from the motion's fourth differences (jitter.hpp)
 /// and is at least 0.0001 mm. At rest u and l are small, and all landmarks have weight. Where the
 /// brows rise, u is large and the lower face determines the pose; where the mouth moves, it is the
-/// other way round. The covariance is computed with l at least u and u at least l / 2: a motion of
-/// the brows that was taken for a motion of the head leaves no trace in the lower face, and the
-/// reverse. `landmarks`: those of
-/// known_landmarks(). Each sample must have three or more of them that are not on a line.
+/// other way round. Between amplitudes that are powers of two the estimate is interpolated. The
+/// covariance is computed with l at least u and u at least l / 2: a motion of the brows that was
+/// taken for a motion of the head leaves no trace in the lower face, and the reverse. `landmarks`:
+/// those of known_landmarks(). Each sample must have three or more of them that are not on a line.
 std::vector<UncertainPose> expressive_poses(const Motion& motion,
                                             const std::vector<KnownLandmark>& landmarks);
 

@@ -109,8 +109,8 @@ class FiniteNewton {
   const std::shared_ptr<const NodeOrder>& order() const;
 
   /// x := A^-1 x on the free unknowns (3 |nodes|; prescribed rows become zero), using the current
-  /// factor: to first order, the displacement (m) caused by the forces x (N). For hooks that
-  /// correct forces.
+  /// factor, rotated with the tissue: to first order, the displacement (m) caused by the forces x
+  /// (N). For hooks that correct forces.
   void solve(Eigen::VectorXd& x);
 
  private:
