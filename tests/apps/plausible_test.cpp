@@ -196,8 +196,9 @@ TEST_F(Plausible, TheDifferenceOfTheCornersIsJudgedAloud) {
         m.positions[k](m.index_of(name), 0) += 4e-3 * double(k) / 15;
   });
   const Outcome apart = call("run scene.toml --out apart --set output.jitter_mm=0");
-  EXPECT_THAT(apart.out,
-              ContainsRegex("mm apart: more than the floor of [0-9.]+ mm \\((mesh|jitter)\\)"));
+  EXPECT_THAT(
+      apart.out,
+      ContainsRegex("mm apart: more than the floor of [0-9.]+ mm \\((mesh|jitter|head pose)\\)"));
 }
 
 TEST_F(Plausible, PointsThatMayMoveWithTheSkullAreAskedForByName) {
