@@ -74,6 +74,9 @@ void note_values(CtFace& face) {
                     "on it is flat "
                     "there.",
                     face.body.couch_cm3));
+  if (face.body.doubtful_couch)
+    face.warnings.push_back(
+        "What looks like a couch is more than half of all that is dense: it was kept.");
   if (face.body.too_low_for_couch)
     face.warnings.push_back("The slices reach over less than 60 mm: no couch was looked for.");
   if (face.body.cavities_cm3 > 0.05)

@@ -122,6 +122,50 @@ TEST(Head, ACouchIsRemoved) {
   EXPECT_LT(farthest, 1.0);
 }
 
+/// A stack through a head of an adult's size that lies on a couch; most of its columns are dense in
+/// every slice.
+TEST(Head, AShortStackKeepsTheHeadAndLosesTheCouch) {
+  const test::Shape alone = test::ellipsoid({0, 0, 0}, {75, 150, 95});
+  const test::Shape couch = test::box({-110, -300, -114}, {110, 300, -94});
+  const test::MadeHead head{test::joined(alone, couch),
+                            test::without(test::ellipsoid({0, 0, 0}, {68, 140, 86}),
+                                          test::ellipsoid({0, 0, 0}, {62, 134, 80})),
+                            0};
+  for (const double height_mm : {70.0, 100.0}) {
+    const Volume volume = test::volume_of(head, {0, 0, 0}, {230, 250, height_mm}, {2, 2, 2});
+    const Body body = find_body(volume, find_skin_threshold(volume, "series"), "series");
+    EXPECT_TRUE(body.couch);
+    EXPECT_FALSE(body.doubtful_couch);
+    // 20 mm by 220 mm, with the 2.5 mm of the head that touch it.
+    EXPECT_NEAR(body.couch_cm3, 4.4 * height_mm, 0.15 * 4.4 * height_mm);
+    int missing = 0, beside = 0;
+    for (int k = 0; k < volume.size[2]; ++k)
+      for (int j = 0; j < volume.size[1]; ++j)
+        for (int i = 0; i < volume.size[0]; ++i) {
+          const Vec3 p = 1e3 * volume.place(i, j, k);
+          const bool kept = body.mask[volume.at(i, j, k)] != 0;
+          missing += alone(p) < -2 && p.z() > -90 && !kept ? 1 : 0;
+          beside += alone(p) > 2 && kept ? 1 : 0;
+        }
+    EXPECT_EQ(missing, 0);
+    EXPECT_EQ(beside, 0);
+  }
+}
+
+TEST(Head, ACouchThatIsMostOfAllIsKeptWithAWarning) {
+  test::MadeHead head = test::small_head();
+  for (const double side : {-1.0, 1.0}) {
+    const test::Shape sheets =
+        test::joined(test::box({-90, -90, side > 0 ? 60.0 : -76}, {90, 90, side > 0 ? 82.0 : -60}),
+                     test::box({side > 0 ? 52.0 : -78, -90, -76}, {side > 0 ? 78.0 : -52, 90, 82}));
+    head.skin = test::joined(head.skin, sheets);
+  }
+  const Volume volume = test::volume_of(head, {0, 0, 5}, {180, 170, 126}, {2, 2, 2});
+  const Body body = find_body(volume, find_skin_threshold(volume, "series"), "series");
+  EXPECT_TRUE(body.doubtful_couch);
+  EXPECT_FALSE(body.couch);
+}
+
 TEST(Head, AirInsideIsNoSkin) {
   test::MadeHead head = test::small_head();
   const test::Shape closed = head.skin;

@@ -184,6 +184,36 @@ TEST_F(Phantom, IsMeasured) {
   expect_same_skin_tilted(face);
 }
 
+/// The slices from one height (mm, of the patient) to another.
+Volume between(const Volume& volume, double from_mm, double to_mm) {
+  Volume out = volume;
+  int first = volume.size[2], last = -1;
+  for (int k = 0; k < volume.size[2]; ++k)
+    if (const double y = 1e3 * volume.place(0, 0, k).y(); y >= from_mm && y <= to_mm)
+      first = std::min(first, k), last = std::max(last, k);
+  out.size[2] = last - first + 1;
+  out.origin_m = volume.place(0, 0, first);
+  const auto at = [&](int k) { return volume.hu.begin() + std::ptrdiff_t(volume.at(0, 0, k)); };
+  out.hu.assign(at(first), at(last + 1));
+  return out;
+}
+
+TEST_F(Phantom, ShortStacksKeepTheHead) {
+  const Volume whole = read_series(kFolder / "phantom_head.zip").volume;
+  for (const auto& [from_mm, to_mm] :
+       {std::pair{380, 470}, {360, 460}, {345, 407}, {420, 482}, {284, 346}}) {
+    const Volume volume = between(whole, from_mm, to_mm);
+    const Body body = find_body(volume, find_skin_threshold(volume, "phantom"), "phantom");
+    double kept = 0;
+    for (const auto v : body.mask) kept += v;
+    kept *= volume.voxel_m3() * 1e6;
+    std::cout << "  " << from_mm << " to " << to_mm << " mm: couch " << body.couch_cm3
+              << " cm3, kept " << kept << " cm3\n";
+    EXPECT_NEAR(body.couch_cm3 / (to_mm - from_mm), 7.4, 0.8) << from_mm;
+    EXPECT_GT(kept / (to_mm - from_mm), 9) << from_mm;
+  }
+}
+
 TEST_F(Phantom, HostileSeriesAreNamed) {
   const auto refused = [](const char* name) {
     return test::refusal([&] { read_series(kFolder / name); });
