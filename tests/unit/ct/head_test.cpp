@@ -93,6 +93,19 @@ TEST(Head, SeedsPartTheJawToo) {
               HasSubstr("series: --seed-mandible: no bone within 6 mm of 0.0,-70.0,32.0 mm"));
 }
 
+TEST(Head, SeedsThatAreNotOneInEachAreRefused) {
+  const Volume volume = volume_of(test::small_head());
+  CtOptions options;
+  const Vec3 skull(0, 0.045, -0.006), jaw(0, -0.034, 0.032);
+  options.seeds = Seeds{jaw, jaw};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }), HasSubstr("within 6 mm"));
+  options.seeds = Seeds{jaw, jaw + Vec3(0.004, 0, 0)};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }), HasSubstr("within 6 mm"));
+  options.seeds = Seeds{jaw, skull};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }),
+              HasSubstr("the mandible would be larger than the skull"));
+}
+
 TEST(Head, WithoutAJawSaysSo) {
   test::MadeHead head = test::small_head();
   head.bone = test::small_skull();

@@ -214,6 +214,23 @@ TEST_F(Phantom, ShortStacksKeepTheHead) {
   }
 }
 
+TEST_F(Phantom, ASkullSeedInAFragmentPartsTheSameJaw) {
+  const Volume volume = read_series(kFolder / "phantom_head.zip").volume;
+  Thresholds thresholds = find_skin_threshold(volume, "phantom");
+  const Body body = find_body(volume, thresholds, "phantom");
+  find_bone_threshold(body.volume, thresholds);
+  const Bones by_shape = find_bones(body, thresholds, {}, "phantom"),
+              by_seeds = find_bones(body, thresholds,
+                                    Seeds{{0.064, 0.410, 0.240}, {0.003, 0.336, 0.296}}, "phantom");
+  double skull = 0, other_skull = 0, jaw = 0, other_jaw = 0;
+  for (std::size_t v = 0; v < by_shape.label.size(); ++v) {
+    skull += by_shape.label[v] == kSkull, other_skull += by_seeds.label[v] == kSkull;
+    jaw += by_shape.label[v] == kMandible, other_jaw += by_seeds.label[v] == kMandible;
+  }
+  EXPECT_NEAR(other_skull / skull, 1, 0.05);
+  EXPECT_NEAR(other_jaw / jaw, 1, 0.05);
+}
+
 TEST_F(Phantom, HostileSeriesAreNamed) {
   const auto refused = [](const char* name) {
     return test::refusal([&] { read_series(kFolder / name); });
