@@ -129,7 +129,7 @@ void take_surfaces(CtFace& face, const CtOptions& options) {
     run_together(all);
   }
   if (options.own.given()) {
-    face.bones = read_own_bones(options.own, face.skin);
+    face.bones = read_own_bones(options.own, face.body.volume, face.thresholds.skin_hu);
     face.own_bones = true;
     face.separated = face.bones.mandible.triangles.rows() > 0;
   }
