@@ -49,6 +49,9 @@ void check(CtCommand& options) {
   const auto& own = options.ct.own;
   if (!own.labels.empty() && !(own.skull.empty() && own.mandible.empty()))
     throw InputError("--labels and --skull or --mandible: expected one segmentation");
+  if (own.skull.empty() != own.mandible.empty())
+    throw InputError(own.mandible.empty() ? "--skull alone: expected --mandible too"
+                                          : "--mandible alone: expected --skull too");
   if (own.given() && options.ct.seeds)
     throw InputError("a segmentation of your own needs no seeds; expected one of them");
   options.ct.own.frame =

@@ -110,6 +110,7 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
                   "three numbers x,y,z"},
         std::pair{"ct series --out out --labels none.nrrd", "none.nrrd"},
         std::pair{"ct series --out out --labels mine.txt", "expected labels as"},
+        std::pair{"ct series --out out --skull a.ply", "--skull alone: expected --mandible too"},
         std::pair{"ct series --out out --skin-hu 300", "--skin-hu"}}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
