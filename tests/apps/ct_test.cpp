@@ -10,6 +10,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/io/text_table.hpp"
 #include "support/made_ct.hpp"
+#include "support/zip_writer.hpp"
 
 namespace hyperex {
 namespace {
@@ -70,7 +71,13 @@ TEST_F(Ct, SaysNothingOfThePatient) {
   EXPECT_EQ(torn.status, 2);
   EXPECT_THAT(torn.err, HasSubstr("file 3 of 64 (in the order of their names) is cut off"));
   EXPECT_FALSE(fs::exists(in("torn_out")));
-  std::string all = good.out + good.err + torn.out + torn.err;
+  // Entries of a zip that cannot be unpacked, too.
+  std::ofstream(in("study.zip"), std::ios::binary)
+      << test::zip_of({{.name = "annabell:doeringer.dcm", .bytes = "a slice"}});
+  const Outcome zip = call("ct study.zip --out zip_out");
+  EXPECT_EQ(zip.status, 2);
+  EXPECT_THAT(zip.err, HasSubstr("study.zip: cannot be unpacked"));
+  std::string all = good.out + good.err + torn.out + torn.err + zip.out + zip.err;
   for (const char* folder : {"out", "cache"})
     if (fs::exists(in(folder)))
       for (const std::string& name : names_in(in(folder)))
@@ -111,7 +118,7 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
         std::pair{"ct series --out out --labels none.nrrd", "none.nrrd"},
         std::pair{"ct series --out out --labels mine.txt", "expected labels as"},
         std::pair{"ct series --out out --skull a.ply", "--skull alone: expected --mandible too"},
-        std::pair{"ct series --out out --skin-hu 300", "--skin-hu"}}) {
+        std::pair{"ct series --out out --skin-hu 3000", "--skin-hu"}}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
     const auto reported = problems_in(outcome.err);

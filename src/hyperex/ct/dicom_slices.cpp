@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -39,7 +40,8 @@ constexpr std::array<DicomTag, 11> kPrivate = {{{0x0010, 0x0010},
                                                 {0x0020, 0x0010},
                                                 {0x0020, 0x000d},
                                                 {0x0020, 0x000e}}};
-constexpr std::size_t kLeastWord = 3;
+constexpr DicomTag kPatient = kPrivate[0];
+constexpr std::size_t kLeastWord = 3;  // bytes, that are looked for within other words
 
 const std::vector<DicomTag>& all_tags() {
   static const std::vector<DicomTag> all = [] {
@@ -111,7 +113,9 @@ void add_private_words(const Header& header, std::set<std::string>& words) {
       const bool splits = c == '^' || c == ' ' || c == '=' || c == '\\' || c == ',';
       if (!splits) word += c;
       if (!splits) continue;
-      if (word.size() >= kLeastWord) words.insert(lower_case(word));
+      // Short numbers stand in too many names; short names are looked for as whole words.
+      if (word.size() >= kLeastWord || (tag == kPatient && !word.empty()))
+        words.insert(lower_case(word));
       word.clear();
     }
   }
@@ -200,10 +204,26 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
   return slice;
 }
 
+/// Bytes of letters beyond ASCII count as letters.
+bool is_of_word(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || std::isalnum(byte) != 0;
+}
+
+bool holds_word(const std::string& low, const std::string& word) {
+  if (word.size() >= kLeastWord) return low.find(word) != std::string::npos;
+  for (auto at = low.find(word); at != std::string::npos; at = low.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_of_word(low[at - 1])) && (end == low.size() || !is_of_word(low[end])))
+      return true;
+  }
+  return false;
+}
+
 bool names_patient(const std::string& name, const std::set<std::string>& words) {
   const std::string low = lower_case(name);
   return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return low.find(word) != std::string::npos; });
+                     [&](const std::string& word) { return holds_word(low, word); });
 }
 
 }  // namespace
