@@ -27,7 +27,7 @@ constexpr DicomTag kImageType{0x0008, 0x0008}, kModality{0x0008, 0x0060}, kSerie
     kSamples{0x0028, 0x0002}, kColours{0x0028, 0x0004}, kFrames{0x0028, 0x0008},
     kRows{0x0028, 0x0010}, kColumns{0x0028, 0x0011}, kSpacing{0x0028, 0x0030},
     kAllocated{0x0028, 0x0100}, kStored{0x0028, 0x0101}, kHighBit{0x0028, 0x0102},
-    kSigned{0x0028, 0x0103};
+    kSigned{0x0028, 0x0103}, kIntercept{0x0028, 0x1052}, kSlope{0x0028, 0x1053};
 /// What may name the patient: names, numbers, dates of birth, and identifiers of study and file.
 constexpr std::array<DicomTag, 11> kPrivate = {{{0x0010, 0x0010},
                                                 {0x0010, 0x0020},
@@ -45,10 +45,10 @@ constexpr std::size_t kLeastWord = 3;  // bytes, that are looked for within othe
 
 const std::vector<DicomTag>& all_tags() {
   static const std::vector<DicomTag> all = [] {
-    std::vector<DicomTag> out = {kImageType, kModality,    kSeries,  kSeriesNumber,
-                                 kPosition,  kOrientation, kSamples, kColours,
-                                 kFrames,    kRows,        kColumns, kSpacing,
-                                 kAllocated, kStored,      kHighBit, kSigned};
+    std::vector<DicomTag> out = {kImageType,   kModality,  kSeries,    kSeriesNumber, kPosition,
+                                 kOrientation, kSamples,   kColours,   kFrames,       kRows,
+                                 kColumns,     kSpacing,   kAllocated, kStored,       kHighBit,
+                                 kSigned,      kIntercept, kSlope};
     out.insert(out.end(), kPrivate.begin(), kPrivate.end());
     return out;
   }();
@@ -153,13 +153,23 @@ bool has_odd_pixels(const Header& header) {
          header.binary(kSamples) != 1 || !header.text(kColours).starts_with("MONOCHROME");
 }
 
+/// The way from pixels to Hounsfield units; GDCM takes what it cannot read for 1 or 0.
+bool has_odd_scale(const Header& header) {
+  const auto is_number = [&](const DicomTag& tag) {
+    const auto numbers = header.numbers(tag);
+    return header.text(tag).empty() || (numbers.size() == 1 && std::isfinite(numbers[0]));
+  };
+  const auto slope = header.numbers(kSlope);
+  return !is_number(kIntercept) || !is_number(kSlope) || (slope.size() == 1 && slope[0] == 0);
+}
+
 /// All bytes of a DICOM file, or the first few of another.
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string bytes(256, '\0');
   in.read(bytes.data(), std::streamsize(bytes.size()));
   bytes.resize(std::size_t(in.gcount()));
-  return begins_as_dicom(bytes) ? read_file(file) : bytes;
+  return begins_as_dicom(bytes) ? without_padding(read_file(file)) : bytes;
 }
 
 bool begins_as_picture(const fs::path& file) {
@@ -199,6 +209,10 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
         "slice, as scanners and 3D Slicer export them";
   else if (has_odd_pixels(header))
     slice.fault = "holds a picture of another kind than a CT's (one value of 16 bits a pixel)";
+  else if (has_odd_scale(header))
+    slice.fault =
+        "states a RescaleSlope or RescaleIntercept that is no number, or a slope of 0; expected "
+        "those that give Hounsfield units";
   else if (read_place(header, slice); slice.fault.empty() && header.has_wrong_length())
     slice.fault = "is damaged: its picture has fewer pixels than it states";
   return slice;
@@ -262,7 +276,7 @@ std::string DicomFolder::shown(const fs::path& path) const {
 }
 
 void read_pixels(const DicomSlice& slice, float* to) {
-  const std::string whole = read_file(slice.file);
+  const std::string whole = without_padding(read_file(slice.file));
   std::optional<DicomPixels> read;
   if (fault_of_dicom(whole).empty()) read = itk_library().pixels_of(whole);
   if (!read || read->columns != slice.place.columns || read->rows != slice.place.rows)

@@ -208,5 +208,41 @@ TEST_F(ReadSeries, RemovesWhatAKilledCallHadUnpacked) {
     ::setenv("TMPDIR", kept.c_str(), 1);
 }
 
+TEST_F(ReadSeries, TakesZerosBehindThePixels) {
+  const Volume made = ten_slices();
+  test::write_dicom(in("ct"), made);
+  const fs::path file = in("ct") / "IM0004.dcm";
+  const std::string whole = read_file(file);
+  for (const std::size_t count : {1, 2, 7, 8, 512}) {
+    std::ofstream(file, std::ios::binary) << whole << std::string(count, '\0');
+    expect_same(read_series(in("ct")).volume, made);
+  }
+  std::ofstream(file, std::ios::binary) << whole << std::string(7, '\0') << 'x';
+  EXPECT_THAT(refused(in("ct")), HasSubstr("IM0004.dcm is "));
+}
+
+TEST_F(ReadSeries, RefusesAScaleThatGivesNoHounsfieldUnits) {
+  test::write_dicom(in("ct"), ten_slices());
+  const fs::path file = in("ct") / "IM0004.dcm";
+  const std::string whole = read_file(file);
+  const std::string slope(
+      "\x28\0\x53\x10"
+      "DS\x02\0",
+      8),
+      intercept(
+          "\x28\0\x52\x10"
+          "DS\x06\0",
+          8);
+  for (const auto& [tag, value] :
+       {std::pair{slope, "0 "}, {slope, "x "}, {intercept, "-1o24 "}, {intercept, "nan   "}}) {
+    std::string wrong = whole;
+    const auto at = wrong.find(tag);
+    ASSERT_NE(at, std::string::npos);
+    wrong.replace(at + 8, std::string(value).size(), value);
+    std::ofstream(file, std::ios::binary) << wrong;
+    EXPECT_THAT(refused(in("ct")), HasSubstr("IM0004.dcm states a RescaleSlope")) << value;
+  }
+}
+
 }  // namespace
 }  // namespace hyperex::ct
