@@ -118,7 +118,7 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
         std::pair{"ct series --out out --labels none.nrrd", "none.nrrd"},
         std::pair{"ct series --out out --labels mine.txt", "expected labels as"},
         std::pair{"ct series --out out --skull a.ply", "--skull alone: expected --mandible too"},
-        std::pair{"ct series --out out --skin-hu 3000", "--skin-hu"}}) {
+        std::pair{"ct series --out out --skin-hu 300", "--skin-hu = 300: expected -900 to 200"}}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
     const auto reported = problems_in(outcome.err);

@@ -57,14 +57,18 @@ void note_values(CtFace& face) {
   for (std::size_t v = 0; v < face.body.volume.hu.size(); ++v) {
     if (face.body.mask[v] == 0) continue;
     face.greatest_hu = std::max(face.greatest_hu, double(face.body.volume.hu[v]));
-    dense += face.body.volume.hu[v] > kMetal_hu ? 1 : 0;
+    dense += face.thresholds.is_hu && face.body.volume.hu[v] > kMetal_hu ? 1 : 0;
   }
   face.metal_cm3 = double(dense) * face.series.volume.voxel_m3() * 1e6;
   if (face.metal_cm3 > kMuchMetal_cm3)
     face.warnings.push_back(
         fmt::format("{:.2f} cm^3 are denser than {:g} HU: metal, whose streaks may look like bone.",
                     face.metal_cm3, kMetal_hu));
-  if (face.thresholds.noise_hu > kMuchNoise_hu)
+  if (!face.thresholds.is_hu)
+    face.warnings.push_back(
+        "The values are no Hounsfield units: skin and bone lie at the given ones, which nothing "
+        "checks; look at slices.png. Metal and noise are not judged.");
+  if (face.thresholds.is_hu && face.thresholds.noise_hu > kMuchNoise_hu)
     face.warnings.push_back(
         fmt::format("The noise in soft tissue is {:.0f} HU: specks of bone may be noise.",
                     face.thresholds.noise_hu));
@@ -155,7 +159,8 @@ CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
   face.series = std::move(series);
   face.notes = face.series.notes;
   const std::string& source = face.series.shown;
-  face.thresholds = find_skin_threshold(face.series.volume, source, options.skin_hu);
+  face.thresholds =
+      find_skin_threshold(face.series.volume, source, options.skin_hu, options.bone_hu);
   {
     Progress progress("finding head, couch and air", 0);
     face.body = find_body(face.series.volume, face.thresholds, source);

@@ -51,9 +51,32 @@ TEST(Head, ThresholdsAreHalfWay) {
 TEST(Head, RefusesValuesThatAreNoHounsfieldUnits) {
   Volume mri = volume_of(test::small_head());
   for (float& v : mri.hu) v = (v + 1024) / 3;
-  EXPECT_THAT(test::refusal([&] { face_of(mri); }), HasSubstr("no Hounsfield units"));
+  EXPECT_THAT(test::refusal([&] { face_of(mri); }),
+              testing::AllOf(HasSubstr("no Hounsfield units"), HasSubstr("--skin-hu and"),
+                             HasSubstr("--bone-hu")));
   Volume nothing = volume_of({test::ball({0, 0, 0}, 8), test::ball({0, 0, 0}, 3), 0});
   EXPECT_THAT(test::refusal([&] { face_of(nothing); }), HasSubstr("series: "));
+}
+
+TEST(Head, OtherUnitsAreTakenWithBothValues) {
+  const test::MadeHead head = test::small_head();
+  Volume other = volume_of(head);
+  for (float& v : other.hu) v = 3000 + 2 * v;
+  CtOptions options;
+  options.skin_hu = 2040;
+  EXPECT_THAT(test::refusal([&] { face_of(other, options); }), HasSubstr("--bone-hu"));
+  options.bone_hu = 4000;
+  const CtFace face = face_of(other, options);
+  EXPECT_THAT(face.warnings, testing::Contains(HasSubstr("no Hounsfield units")));
+  EXPECT_NEAR(face.thresholds.air_hu, 1000, 30);
+  EXPECT_NEAR(face.thresholds.soft_hu, 3080, 30);
+  EXPECT_NEAR(face.thresholds.noise_hu, 60, 20);
+  EXPECT_EQ(face.metal_cm3, 0);
+  EXPECT_LT(farthest_mm(face.skin, head.skin), 1.0);
+  EXPECT_TRUE(face.separated);
+  options.skin_hu = -5000;
+  EXPECT_THAT(test::refusal([&] { face_of(other, options); }),
+              HasSubstr("expected values of the volume below the first"));
 }
 
 TEST(Head, SurfacesLieOnTheMadeOnes) {
