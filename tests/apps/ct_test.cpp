@@ -10,6 +10,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/io/text_table.hpp"
 #include "support/made_ct.hpp"
+#include "support/sanitizers.hpp"
 #include "support/zip_writer.hpp"
 
 namespace hyperex {
@@ -149,6 +150,40 @@ TEST_F(Ct, TakesSeedsAndOwnSurfaces) {
   // A surface that was written and read again gives the same thickness.
   EXPECT_EQ(read_file(in("own/thickness.csv")).substr(0, 2000),
             read_file(in("out/thickness.csv")).substr(0, 2000));
+}
+
+TEST_F(Ct, TooLittleMemoryIsToldInOneLine) {
+#if HYPEREX_SANITIZED
+  GTEST_SKIP() << "a sanitizer takes more addresses than any limit leaves";
+#endif
+  write("series");
+  int forecasts = 0;
+  for (const int kb : {300000, 500000, 600000, 700000, 750000, 800000}) {
+    const Outcome outcome = call("ct series --out out", "ulimit -v " + std::to_string(kb));
+    if (outcome.status == 0) {
+      EXPECT_EQ(call("ct series --out out").status, 0);
+      fs::remove_all(in("out"));
+      continue;
+    }
+    EXPECT_EQ(outcome.status, 1) << kb << outcome.err;
+    const auto reported = problems_in(outcome.err);
+    ASSERT_EQ(reported.size(), 1u) << kb << '\n' << outcome.err;
+    EXPECT_THAT(reported[0], HasSubstr("memory")) << kb;
+    EXPECT_FALSE(fs::exists(in("out"))) << kb;
+    forecasts += reported[0].find("MB are available") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(forecasts, 0);
+}
+
+TEST_F(Ct, ARunReplacesNoneOfItsFiles) {
+  write("series");
+  ASSERT_EQ(call("ct series --out ct").status, 0);
+  const auto before = names_in(in("ct"));
+  put(in("other.toml"), "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n");
+  const Outcome over = call("run other.toml --out ct --no-cache");
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, HasSubstr("which no earlier run is known to have written"));
+  EXPECT_EQ(names_in(in("ct")), before);
 }
 
 }  // namespace

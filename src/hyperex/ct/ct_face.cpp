@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/ct/iso_surface.hpp"
@@ -19,6 +21,9 @@ namespace hyperex::ct {
 namespace {
 
 constexpr double kMuchMetal_cm3 = 0.02, kMuchNoise_hu = 80, kCoarse_m = 1.5e-3;
+/// Measured: what the filters take of a large volume. Besides: surfaces, pictures and, where
+/// addresses are limited, those that Embree and threads reserve.
+constexpr double kBytesOfValue = 46, kBytesBesides = 450e6;
 
 /// The triangles of the component with the most of them, and its vertices.
 TriMesh largest_component(const TriMesh& mesh) {
@@ -152,6 +157,17 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
   return out;
 }
 
+/// Filters that find no memory while they work end the program.
+void require_memory(const Volume& volume, const std::string& source) {
+  const double needed = kBytesOfValue * double(volume.count()) + kBytesBesides,
+               available = available_memory_bytes();
+  if (needed > available)
+    throw std::runtime_error(
+        fmt::format("{}: a volume of {:.0f} million values takes about {:.0f} MB of memory and "
+                    "{:.0f} MB are available; a part of it, or a coarser one, takes less",
+                    source, 1e-6 * double(volume.count()), 1e-6 * needed, 1e-6 * available));
+}
+
 }  // namespace
 
 CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
@@ -159,6 +175,7 @@ CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
   face.series = std::move(series);
   face.notes = face.series.notes;
   const std::string& source = face.series.shown;
+  require_memory(face.series.volume, source);
   face.thresholds =
       find_skin_threshold(face.series.volume, source, options.skin_hu, options.bone_hu);
   {
