@@ -186,5 +186,18 @@ TEST_F(Ct, ARunReplacesNoneOfItsFiles) {
   EXPECT_EQ(names_in(in("ct")), before);
 }
 
+TEST_F(Ct, ARunMovesTheSkinThatItWrote) {
+  const fs::path zip = fs::path(HYPEREX_SHARED_DIR) / "data/ct/phantom_head.zip";
+  if (!fs::exists(zip)) GTEST_SKIP() << "needs " << zip;
+  ASSERT_EQ(call("ct " + zip.string() + " --out ct").status, 0);
+  put(in("next.toml"),
+      "scan = { file = \"ct/skin.ply\", unit = \"mm\", landmarks = \"ct/landmarks.json\" }\n"
+      "motion = { file = \"embedded\" }\nmesh = { element_size_mm = 9 }\n"
+      "time = { end_s = 0.3 }\n");
+  const Outcome moved = call("run next.toml --out out --no-cache");
+  ASSERT_EQ(moved.status, 0) << moved.err;
+  EXPECT_GT(double(summary()["max_displacement_mm"]), 0.5);
+}
+
 }  // namespace
 }  // namespace hyperex
