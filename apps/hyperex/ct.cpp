@@ -49,6 +49,9 @@ void check(CtCommand& options) {
   const auto& own = options.ct.own;
   if (!own.labels.empty() && !(own.skull.empty() && own.mandible.empty()))
     throw InputError("--labels and --skull or --mandible: expected one segmentation");
+  if (own.skull.empty() != own.mandible.empty())
+    throw InputError(own.mandible.empty() ? "--skull alone: expected --mandible too"
+                                          : "--mandible alone: expected --skull too");
   if (own.given() && options.ct.seeds)
     throw InputError("a segmentation of your own needs no seeds; expected one of them");
   options.ct.own.frame =
@@ -63,8 +66,12 @@ void run(CtCommand& options) {
   const ct::CtFace face = ct::face_of_ct(options.ct);
   for (const std::string& note : face.notes) spdlog::info("{}", note);
   for (const std::string& warning : face.warnings) spdlog::warn("{}", warning);
-  ct::write_ct(face, folder.path());
-  folder.commit();
+  try {
+    ct::write_ct(face, folder.path());
+    folder.commit();
+  } catch (const InputError& error) {
+    throw InputError(folder.with_own_name(error.what()));
+  }
   for (const std::string& line : ct::summary_lines(face)) std::cout << line << '\n';
   std::cout << fmt::format("written to {}\nThis is no medical device.\n",
                            printable(options.out.string()));
@@ -108,10 +115,10 @@ void add_ct(CLI::App& program) {
                       "Which series, where there are several (1, 2 ...)");
   command
       ->add_option("--skin-hu", options->ct.skin_hu, "Value of the skin's surface (default: found)")
-      ->check(CLI::Range(-900.0, 200.0));
+      ->check(CLI::Range(-1e6, 1e6));
   command
       ->add_option("--bone-hu", options->ct.bone_hu, "Value of the bones' surface (default: found)")
-      ->check(CLI::Range(50.0, 2000.0));
+      ->check(CLI::Range(-1e6, 1e6));
   command->add_option("--seed-skull", options->seed_skull,
                       "A point in the skull (x,y,z in mm, frame of the outputs), if jaw and skull "
                       "are not told apart");

@@ -10,6 +10,8 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/io/text_table.hpp"
 #include "support/made_ct.hpp"
+#include "support/sanitizers.hpp"
+#include "support/zip_writer.hpp"
 
 namespace hyperex {
 namespace {
@@ -70,7 +72,13 @@ TEST_F(Ct, SaysNothingOfThePatient) {
   EXPECT_EQ(torn.status, 2);
   EXPECT_THAT(torn.err, HasSubstr("file 3 of 64 (in the order of their names) is cut off"));
   EXPECT_FALSE(fs::exists(in("torn_out")));
-  std::string all = good.out + good.err + torn.out + torn.err;
+  // Entries of a zip that cannot be unpacked, too.
+  std::ofstream(in("study.zip"), std::ios::binary)
+      << test::zip_of({{.name = "annabell:doeringer.dcm", .bytes = "a slice"}});
+  const Outcome zip = call("ct study.zip --out zip_out");
+  EXPECT_EQ(zip.status, 2);
+  EXPECT_THAT(zip.err, HasSubstr("study.zip: cannot be unpacked"));
+  std::string all = good.out + good.err + torn.out + torn.err + zip.out + zip.err;
   for (const char* folder : {"out", "cache"})
     if (fs::exists(in(folder)))
       for (const std::string& name : names_in(in(folder)))
@@ -110,7 +118,8 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
                   "three numbers x,y,z"},
         std::pair{"ct series --out out --labels none.nrrd", "none.nrrd"},
         std::pair{"ct series --out out --labels mine.txt", "expected labels as"},
-        std::pair{"ct series --out out --skin-hu 300", "--skin-hu"}}) {
+        std::pair{"ct series --out out --skull a.ply", "--skull alone: expected --mandible too"},
+        std::pair{"ct series --out out --skin-hu 300", "--skin-hu = 300: expected -900 to 200"}}) {
     const Outcome outcome = call(arguments);
     EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
     const auto reported = problems_in(outcome.err);
@@ -141,6 +150,53 @@ TEST_F(Ct, TakesSeedsAndOwnSurfaces) {
   // A surface that was written and read again gives the same thickness.
   EXPECT_EQ(read_file(in("own/thickness.csv")).substr(0, 2000),
             read_file(in("out/thickness.csv")).substr(0, 2000));
+}
+
+TEST_F(Ct, TooLittleMemoryIsToldInOneLine) {
+#if HYPEREX_SANITIZED
+  GTEST_SKIP() << "a sanitizer takes more addresses than any limit leaves";
+#endif
+  write("series");
+  int forecasts = 0;
+  for (const int kb : {300000, 500000, 600000, 700000, 750000, 800000}) {
+    const Outcome outcome = call("ct series --out out", "ulimit -v " + std::to_string(kb));
+    if (outcome.status == 0) {
+      EXPECT_EQ(call("ct series --out out").status, 0);
+      fs::remove_all(in("out"));
+      continue;
+    }
+    EXPECT_EQ(outcome.status, 1) << kb << outcome.err;
+    const auto reported = problems_in(outcome.err);
+    ASSERT_EQ(reported.size(), 1u) << kb << '\n' << outcome.err;
+    EXPECT_THAT(reported[0], HasSubstr("memory")) << kb;
+    EXPECT_FALSE(fs::exists(in("out"))) << kb;
+    forecasts += reported[0].find("MB are available") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GT(forecasts, 0);
+}
+
+TEST_F(Ct, ARunReplacesNoneOfItsFiles) {
+  write("series");
+  ASSERT_EQ(call("ct series --out ct").status, 0);
+  const auto before = names_in(in("ct"));
+  put(in("other.toml"), "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n");
+  const Outcome over = call("run other.toml --out ct --no-cache");
+  EXPECT_EQ(over.status, 2);
+  EXPECT_THAT(over.err, HasSubstr("which no earlier run is known to have written"));
+  EXPECT_EQ(names_in(in("ct")), before);
+}
+
+TEST_F(Ct, ARunMovesTheSkinThatItWrote) {
+  const fs::path zip = fs::path(HYPEREX_SHARED_DIR) / "data/ct/phantom_head.zip";
+  if (!fs::exists(zip)) GTEST_SKIP() << "needs " << zip;
+  ASSERT_EQ(call("ct " + zip.string() + " --out ct").status, 0);
+  put(in("next.toml"),
+      "scan = { file = \"ct/skin.ply\", unit = \"mm\", landmarks = \"ct/landmarks.json\" }\n"
+      "motion = { file = \"embedded\" }\nmesh = { element_size_mm = 9 }\n"
+      "time = { end_s = 0.3 }\n");
+  const Outcome moved = call("run next.toml --out out --no-cache");
+  ASSERT_EQ(moved.status, 0) << moved.err;
+  EXPECT_GT(double(summary()["max_displacement_mm"]), 0.5);
 }
 
 }  // namespace

@@ -16,4 +16,8 @@ void take_library_memory();
 /// call.
 void give_back_freed_memory();
 
+/// MemAvailable of /proc/meminfo, or less if a control group or an address-space limit allows less.
+/// 4 GiB if none of these is known.
+double available_memory_bytes();
+
 }  // namespace hyperex

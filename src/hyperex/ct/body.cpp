@@ -15,6 +15,7 @@ namespace {
 constexpr double kAlwaysThere = 0.95, kAroundCouch_m = 2.5e-3, kThin_m = 3e-3;
 constexpr double kBall_m = 4e-3, kDeep_m = 6e-3;
 constexpr double kLeastHead_m3 = 20e-6, kLeastStack_m = 0.06;
+constexpr double kMostCouch_m = 0.03, kBeyondHead_m = 8e-3, kMostCouchShare = 0.5;
 
 /// The columns of a volume along one of its indices, as a plane of the two others.
 class Columns {
@@ -41,6 +42,15 @@ class Columns {
   std::array<int, 2> place(std::size_t column) const {
     return {int(column % std::size_t(grid_.size[0])), int(column / std::size_t(grid_.size[0]))};
   }
+  /// How far a column is from the border of the slices.
+  double from_border_m(std::size_t column) const {
+    const std::array<int, 2> at = place(column);
+    double out = std::numeric_limits<double>::infinity();
+    for (std::size_t a = 0; a < 2; ++a)
+      out = std::min(out,
+                     std::min(at[a] + 1, grid_.size[a] - at[a]) * grid_.spacing_m[Eigen::Index(a)]);
+    return out;
+  }
 
  private:
   const Volume& volume_;
@@ -56,9 +66,15 @@ struct Box {
     for (std::size_t a = 0; a < 2; ++a)
       low[a] = std::min(low[a], p[a]), high[a] = std::max(high[a], p[a]);
   }
-  bool holds(const Box& other) const {
-    return low[0] <= other.low[0] && low[1] <= other.low[1] && high[0] >= other.high[0] &&
-           high[1] >= other.high[1];
+  /// Whether `other` reaches beyond it by no more than `margin_m`.
+  bool holds(const Box& other, const Grid& grid, double margin_m) const {
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double step_m = grid.spacing_m[Eigen::Index(a)];
+      if ((low[a] - other.low[a]) * step_m > margin_m ||
+          (other.high[a] - high[a]) * step_m > margin_m)
+        return false;
+    }
+    return true;
   }
 };
 
@@ -90,34 +106,74 @@ Box outline_of(const Mask& mask, const Columns& columns, const Grid& grid) {
   return box;
 }
 
-/// Flags of the columns that are couch, with what is around them.
-Mask couch_columns(const Mask& mask, const Columns& columns, const Grid& grid) {
+/// Takes out what is thicker than a couch: in a short stack most columns of the head are dense in
+/// all slices, and hang together with the couch.
+void take_out_thick(Mask& always, const Columns& columns) {
+  const Mask around = complement(always);
+  if (is_empty(around)) return always.assign(always.size(), 0);
+  const std::vector<float> depth = distance_to(around, columns.grid());
+  Mask core(always.size());
+  for (std::size_t c = 0; c < core.size(); ++c)
+    core[c] = std::min(double(depth[c]), columns.from_border_m(c)) > kMostCouch_m / 2 ? 1 : 0;
+  if (is_empty(core)) return;
+  const std::vector<float> away = distance_to(core, columns.grid());
+  for (std::size_t c = 0; c < core.size(); ++c)
+    if (away[c] <= kMostCouch_m / 2) always[c] = 0;
+}
+
+/// Columns that are dense in nearly all slices and no thicker than a couch.
+Mask thin_columns(const Mask& mask, const Columns& columns) {
   Mask always(columns.count(), 0);
-  if (columns.height_m() < kLeastStack_m) return always;
   for (std::size_t c = 0; c < columns.count(); ++c) {
     int there = 0;
     for (int n = 0; n < columns.length(); ++n) there += mask[columns.voxel(c, n)];
     always[c] = there >= kAlwaysThere * columns.length() ? 1 : 0;
   }
-  if (is_empty(always)) return always;
+  if (!is_empty(always)) take_out_thick(always, columns);
+  return always;
+}
+
+/// Flags of the columns that are couch, with what is around them.
+Mask couch_columns(const Mask& mask, const Columns& columns, const Grid& grid) {
+  Mask couch(columns.count(), 0);
+  if (columns.height_m() < kLeastStack_m) return couch;
+  const Mask thin = thin_columns(mask, columns);
+  if (is_empty(thin)) return couch;
   Mask rest = mask;
   for (std::size_t c = 0; c < columns.count(); ++c)
-    for (int n = 0; always[c] != 0 && n < columns.length(); ++n) rest[columns.voxel(c, n)] = 0;
+    for (int n = 0; thin[c] != 0 && n < columns.length(); ++n) rest[columns.voxel(c, n)] = 0;
   const Box head = outline_of(rest, columns, grid);
-  const Pieces pieces = pieces_of(always, columns.grid());
+  const Pieces pieces = pieces_of(thin, columns.grid());
   std::vector<Box> boxes(pieces.count.size());
   for (std::size_t c = 0; c < columns.count(); ++c)
     boxes[std::size_t(pieces.number[c])].take(columns.place(c));
-  Mask couch(columns.count(), 0);
   for (std::size_t c = 0; c < columns.count(); ++c)
-    couch[c] = pieces.number[c] > 0 && head.high[0] >= 0 &&
-                       !head.holds(boxes[std::size_t(pieces.number[c])])
-                   ? 1
-                   : 0;
+    couch[c] =
+        pieces.number[c] > 0 && head.high[0] >= 0 &&
+                !head.holds(boxes[std::size_t(pieces.number[c])], columns.grid(), kBeyondHead_m)
+            ? 1
+            : 0;
   if (is_empty(couch)) return couch;
   const std::vector<float> away = distance_to(couch, columns.grid());
   for (std::size_t c = 0; c < couch.size(); ++c) couch[c] = away[c] <= kAroundCouch_m ? 1 : 0;
   return couch;
+}
+
+/// Takes the couch out of `mask`; returns how many values that were. Where it would be most of
+/// all, it is no couch: nothing is removed, and `doubtful` is set.
+std::size_t remove_couch(Mask& mask, const Columns& columns, const Grid& grid, bool& doubtful) {
+  const Mask couch = couch_columns(mask, columns, grid);
+  Mask without = mask;
+  for (std::size_t c = 0; c < columns.count(); ++c)
+    for (int n = 0; couch[c] != 0 && n < columns.length(); ++n) without[columns.voxel(c, n)] = 0;
+  const auto count = [](const Mask& of) {
+    return std::size_t(std::count(of.begin(), of.end(), Mask::value_type(1)));
+  };
+  const std::size_t all = count(mask), removed = all - count(without);
+  doubtful = double(removed) > kMostCouchShare * double(all);
+  if (doubtful) return 0;
+  mask = std::move(without);
+  return removed;
 }
 
 /// Whether a value lies on the border of the volume, the lowest slice excepted.
@@ -191,14 +247,8 @@ Body find_body(const Volume& volume, const Thresholds& thresholds, const std::st
   Mask mask(volume.count());
   for (std::size_t v = 0; v < mask.size(); ++v)
     mask[v] = volume.hu[v] >= thresholds.skin_hu ? 1 : 0;
-  const Mask couch = couch_columns(mask, columns, grid);
   Mask without = mask;
-  std::size_t removed = 0;
-  for (std::size_t c = 0; c < columns.count(); ++c)
-    for (int n = 0; couch[c] != 0 && n < columns.length(); ++n) {
-      removed += without[columns.voxel(c, n)];
-      without[columns.voxel(c, n)] = 0;
-    }
+  const std::size_t removed = remove_couch(without, columns, grid, out.doubtful_couch);
   const Pieces pieces = pieces_of(without, grid);
   if (pieces.count.size() < 2 || double(pieces.count[1]) * volume.voxel_m3() < kLeastHead_m3)
     throw InputError(source +

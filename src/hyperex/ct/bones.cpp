@@ -126,33 +126,29 @@ class Separation {
       const std::vector<Extent> extents = extents_of(bone_, pieces, kLeastVolume_m3);
       for (std::size_t p = 2; p < extents.size(); ++p)
         if (is_mandible(extents[p], extents[1]))
-          return of_pieces(pieces, 1, int(p), bone_hu_ + rise);
+          return of_pieces(pieces, {1}, int(p), bone_hu_ + rise);
     }
     return {};
   }
 
   Markers by_seeds(std::size_t skull, std::size_t mandible) const {
-    Progress progress("separating the jaw", long(kMostRise_hu / kStep_hu));
-    const double highest = std::min(bone_.hu[skull], bone_.hu[mandible]);
-    for (double level = bone_hu_; level <= highest; level += kStep_hu) {
-      progress.update(long((level - bone_hu_) / kStep_hu));
+    const int levels = int((bone_.hu[mandible] - bone_hu_) / kStep_hu) + 1;
+    Progress progress("separating the jaw", levels);
+    for (int n = 0; n < levels; ++n) {
+      progress.update(n);
+      const double level = bone_hu_ + n * kStep_hu;
       const Pieces pieces = pieces_at(level);
       const int a = pieces.number[skull], b = pieces.number[mandible];
-      if (a > 0 && b > 0 && a != b) return of_pieces(pieces, a, b, level);
+      if (double(pieces.count[std::size_t(b)]) * bone_.voxel_m3() < kLeastVolume_m3) break;
+      // The skull's seed may be below this value, or in a fragment that fell off before the jaw.
+      if (b > 1 && a != b)
+        return of_pieces(pieces, a > 0 ? std::vector{1, a} : std::vector{1}, b, level);
     }
-    Markers out{Mask(bone_.count(), 0), highest, true};
-    const auto place = [&](std::size_t v) {
-      const auto in_slice = std::size_t(bone_.size[0]) * bone_.size[1];
-      return bone_.place(double(v % std::size_t(bone_.size[0])),
-                         double(v % in_slice / std::size_t(bone_.size[0])), double(v / in_slice));
-    };
-    const Vec3 at_skull = place(skull), at_mandible = place(mandible);
-    for (std::size_t v = 0; v < out.mask.size(); ++v) {
-      if (region_[v] == 0) continue;
-      if ((place(v) - at_skull).norm() <= kSeedBall_m) out.mask[v] = kSkull;
-      if ((place(v) - at_mandible).norm() <= kSeedBall_m) out.mask[v] = kMandible;
-    }
-    return out;
+    return around_seeds(skull, mandible, std::min(bone_.hu[skull], bone_.hu[mandible]));
+  }
+
+  double between_m(std::size_t a, std::size_t b) const {
+    return (place_of(a) - place_of(b)).norm();
   }
 
   /// The label of each value of the region.
@@ -173,20 +169,36 @@ class Separation {
   }
 
  private:
+  /// Balls around the two points.
+  Markers around_seeds(std::size_t skull, std::size_t mandible, double level_hu) const {
+    Markers out{Mask(bone_.count(), 0), level_hu, true};
+    for (std::size_t v = 0; v < out.mask.size(); ++v) {
+      if (region_[v] == 0) continue;
+      if (between_m(v, skull) <= kSeedBall_m) out.mask[v] = kSkull;
+      if (between_m(v, mandible) <= kSeedBall_m) out.mask[v] = kMandible;
+    }
+    return out;
+  }
+  Vec3 place_of(std::size_t v) const {
+    const auto row = std::size_t(bone_.size[0]), slice = row * std::size_t(bone_.size[1]);
+    return bone_.place(double(v % row), double(v % slice / row), double(v / slice));
+  }
   Pieces pieces_at(double level_hu) const {
     Mask mask(bone_.count());
     for (std::size_t v = 0; v < mask.size(); ++v)
       mask[v] = region_[v] != 0 && bone_.hu[v] >= level_hu ? 1 : 0;
     return pieces_of(mask, grid_);
   }
-  Markers of_pieces(const Pieces& pieces, int skull, int mandible, double level_hu) const {
+  Markers of_pieces(const Pieces& pieces, const std::vector<int>& skull, int mandible,
+                    double level_hu) const {
     Markers out{Mask(bone_.count(), 0), level_hu, true};
     std::vector<std::uint8_t> label(pieces.count.size(), 0);
     // At a high value the skull is in several pieces; those above the mandible are its own.
     const std::vector<Extent> extents = extents_of(bone_, pieces, kFragment_m3);
     for (std::size_t p = 1; p < extents.size(); ++p)
       if (extents[p].middle().y() > extents[std::size_t(mandible)].high.y()) label[p] = kSkull;
-    label[std::size_t(skull)] = kSkull, label[std::size_t(mandible)] = kMandible;
+    for (const int p : skull) label[std::size_t(p)] = kSkull;
+    label[std::size_t(mandible)] = kMandible;
     for (std::size_t v = 0; v < out.mask.size(); ++v)
       out.mask[v] = label[std::size_t(pieces.number[v])];
     return out;
@@ -203,6 +215,31 @@ Mask region_of(const Volume& bone, double bone_hu) {
   Mask region(bone.count());
   for (std::size_t v = 0; v < region.size(); ++v) region[v] = bone.hu[v] >= bone_hu ? 1 : 0;
   return region;
+}
+
+Markers markers_of_seeds(const Separation& separation, const Volume& bone, const Seeds& seeds,
+                         double bone_hu, const std::string& source) {
+  const std::size_t skull = value_at_seed(bone, seeds.skull_m, bone_hu, "--seed-skull", source),
+                    mandible =
+                        value_at_seed(bone, seeds.mandible_m, bone_hu, "--seed-mandible", source);
+  const double apart_m =
+      std::min((seeds.skull_m - seeds.mandible_m).norm(), separation.between_m(skull, mandible));
+  if (apart_m <= 2 * kSeedBall_m)
+    throw InputError(
+        fmt::format("{}: --seed-skull and --seed-mandible: the two are within {:g} mm; expected a "
+                    "point in each",
+                    source, 2e3 * kSeedBall_m));
+  return separation.by_seeds(skull, mandible);
+}
+
+void check_sizes(const Mask& label, const std::string& source) {
+  const auto skull = std::count(label.begin(), label.end(), kSkull),
+             mandible = std::count(label.begin(), label.end(), kMandible);
+  if (mandible > skull)
+    throw InputError(
+        source +
+        ": --seed-skull and --seed-mandible: the mandible would be larger than the skull; expected "
+        "a point in each, not the other way round, in dense bone");
 }
 
 /// Labels of the crop at their places in the whole volume.
@@ -231,16 +268,16 @@ Bones find_bones(const Body& body, const Thresholds& thresholds, const std::opti
   const Separation separation(crop.volume, region, bone_hu);
   Markers markers;
   if (seeds)
-    markers = separation.by_seeds(
-        value_at_seed(crop.volume, seeds->skull_m, bone_hu, "--seed-skull", source),
-        value_at_seed(crop.volume, seeds->mandible_m, bone_hu, "--seed-mandible", source));
+    markers = markers_of_seeds(separation, crop.volume, *seeds, bone_hu, source);
   else
     markers = separation.by_shape();
   Bones out;
   out.separated = markers.found;
   out.level_hu = markers.found ? markers.level_hu : bone_hu;
   if (markers.found) {
-    out.label = placed(separation.flooded(markers), crop, body.volume);
+    const Mask label = separation.flooded(markers);
+    if (seeds) check_sizes(label, source);
+    out.label = placed(label, crop, body.volume);
     return out;
   }
   const Pieces pieces = pieces_of(region, grid_of(crop.volume));

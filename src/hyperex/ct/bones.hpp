@@ -25,8 +25,11 @@ constexpr std::uint8_t kSkull = 1, kMandible = 2;
 /// 40 mm behind. Largest piece (with other pieces of
 /// 0.1 cm^3 whose middle is above the mandible) and mandible are then the markers of a watershed
 /// that gives every value of bone back to one of them. With `seeds`, the value is raised until the
-/// two points lie in different pieces. Bone that hangs on neither is left out. Throws InputError,
-/// naming `source`, where there is no bone or a seed is more than 6 mm from bone.
+/// mandible's point lies in a piece of at least 8 cm^3 that is not the largest and does not hold
+/// the skull's point; the largest piece is skull. Where that never comes, balls around the points
+/// are the markers. Bone that hangs on neither is left out. Throws InputError, naming `source`,
+/// where there is no bone, a seed is more than 6 mm from bone, the two or the bone at them are
+/// within 6 mm,/// or the seeds' mandible is larger than the skull.
 Bones find_bones(const Body& body, const Thresholds& thresholds, const std::optional<Seeds>& seeds,
                  const std::string& source);
 

@@ -6,9 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <stdexcept>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/ct/iso_surface.hpp"
@@ -19,6 +21,9 @@ namespace hyperex::ct {
 namespace {
 
 constexpr double kMuchMetal_cm3 = 0.02, kMuchNoise_hu = 80, kCoarse_m = 1.5e-3;
+/// Measured: what the filters take of a large volume. Besides: surfaces, pictures and, where
+/// addresses are limited, those that Embree and threads reserve.
+constexpr double kBytesOfValue = 46, kBytesBesides = 450e6;
 
 /// The triangles of the component with the most of them, and its vertices.
 TriMesh largest_component(const TriMesh& mesh) {
@@ -57,14 +62,18 @@ void note_values(CtFace& face) {
   for (std::size_t v = 0; v < face.body.volume.hu.size(); ++v) {
     if (face.body.mask[v] == 0) continue;
     face.greatest_hu = std::max(face.greatest_hu, double(face.body.volume.hu[v]));
-    dense += face.body.volume.hu[v] > kMetal_hu ? 1 : 0;
+    dense += face.thresholds.is_hu && face.body.volume.hu[v] > kMetal_hu ? 1 : 0;
   }
   face.metal_cm3 = double(dense) * face.series.volume.voxel_m3() * 1e6;
   if (face.metal_cm3 > kMuchMetal_cm3)
     face.warnings.push_back(
         fmt::format("{:.2f} cm^3 are denser than {:g} HU: metal, whose streaks may look like bone.",
                     face.metal_cm3, kMetal_hu));
-  if (face.thresholds.noise_hu > kMuchNoise_hu)
+  if (!face.thresholds.is_hu)
+    face.warnings.push_back(
+        "The values are no Hounsfield units: skin and bone lie at the given ones, which nothing "
+        "checks; look at slices.png. Metal and noise are not judged.");
+  if (face.thresholds.is_hu && face.thresholds.noise_hu > kMuchNoise_hu)
     face.warnings.push_back(
         fmt::format("The noise in soft tissue is {:.0f} HU: specks of bone may be noise.",
                     face.thresholds.noise_hu));
@@ -74,6 +83,9 @@ void note_values(CtFace& face) {
                     "on it is flat "
                     "there.",
                     face.body.couch_cm3));
+  if (face.body.doubtful_couch)
+    face.warnings.push_back(
+        "What looks like a couch is more than half of all that is dense: it was kept.");
   if (face.body.too_low_for_couch)
     face.warnings.push_back("The slices reach over less than 60 mm: no couch was looked for.");
   if (face.body.cavities_cm3 > 0.05)
@@ -126,7 +138,7 @@ void take_surfaces(CtFace& face, const CtOptions& options) {
     run_together(all);
   }
   if (options.own.given()) {
-    face.bones = read_own_bones(options.own, face.skin);
+    face.bones = read_own_bones(options.own, face.body.volume, face.thresholds.skin_hu);
     face.own_bones = true;
     face.separated = face.bones.mandible.triangles.rows() > 0;
   }
@@ -145,6 +157,17 @@ TriMesh joined(const TriMesh& a, const TriMesh& b) {
   return out;
 }
 
+/// Filters that find no memory while they work end the program.
+void require_memory(const Volume& volume, const std::string& source) {
+  const double needed = kBytesOfValue * double(volume.count()) + kBytesBesides,
+               available = available_memory_bytes();
+  if (needed > available)
+    throw std::runtime_error(
+        fmt::format("{}: a volume of {:.0f} million values takes about {:.0f} MB of memory and "
+                    "{:.0f} MB are available; a part of it, or a coarser one, takes less",
+                    source, 1e-6 * double(volume.count()), 1e-6 * needed, 1e-6 * available));
+}
+
 }  // namespace
 
 CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
@@ -152,7 +175,9 @@ CtFace face_of_series(SeriesVolume series, const CtOptions& options) {
   face.series = std::move(series);
   face.notes = face.series.notes;
   const std::string& source = face.series.shown;
-  face.thresholds = find_skin_threshold(face.series.volume, source, options.skin_hu);
+  require_memory(face.series.volume, source);
+  face.thresholds =
+      find_skin_threshold(face.series.volume, source, options.skin_hu, options.bone_hu);
   {
     Progress progress("finding head, couch and air", 0);
     face.body = find_body(face.series.volume, face.thresholds, source);

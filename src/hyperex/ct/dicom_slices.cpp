@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -26,7 +27,7 @@ constexpr DicomTag kImageType{0x0008, 0x0008}, kModality{0x0008, 0x0060}, kSerie
     kSamples{0x0028, 0x0002}, kColours{0x0028, 0x0004}, kFrames{0x0028, 0x0008},
     kRows{0x0028, 0x0010}, kColumns{0x0028, 0x0011}, kSpacing{0x0028, 0x0030},
     kAllocated{0x0028, 0x0100}, kStored{0x0028, 0x0101}, kHighBit{0x0028, 0x0102},
-    kSigned{0x0028, 0x0103};
+    kSigned{0x0028, 0x0103}, kIntercept{0x0028, 0x1052}, kSlope{0x0028, 0x1053};
 /// What may name the patient: names, numbers, dates of birth, and identifiers of study and file.
 constexpr std::array<DicomTag, 11> kPrivate = {{{0x0010, 0x0010},
                                                 {0x0010, 0x0020},
@@ -39,14 +40,15 @@ constexpr std::array<DicomTag, 11> kPrivate = {{{0x0010, 0x0010},
                                                 {0x0020, 0x0010},
                                                 {0x0020, 0x000d},
                                                 {0x0020, 0x000e}}};
-constexpr std::size_t kLeastWord = 3;
+constexpr DicomTag kPatient = kPrivate[0];
+constexpr std::size_t kLeastWord = 3;  // bytes, that are looked for within other words
 
 const std::vector<DicomTag>& all_tags() {
   static const std::vector<DicomTag> all = [] {
-    std::vector<DicomTag> out = {kImageType, kModality,    kSeries,  kSeriesNumber,
-                                 kPosition,  kOrientation, kSamples, kColours,
-                                 kFrames,    kRows,        kColumns, kSpacing,
-                                 kAllocated, kStored,      kHighBit, kSigned};
+    std::vector<DicomTag> out = {kImageType,   kModality,  kSeries,    kSeriesNumber, kPosition,
+                                 kOrientation, kSamples,   kColours,   kFrames,       kRows,
+                                 kColumns,     kSpacing,   kAllocated, kStored,       kHighBit,
+                                 kSigned,      kIntercept, kSlope};
     out.insert(out.end(), kPrivate.begin(), kPrivate.end());
     return out;
   }();
@@ -111,7 +113,9 @@ void add_private_words(const Header& header, std::set<std::string>& words) {
       const bool splits = c == '^' || c == ' ' || c == '=' || c == '\\' || c == ',';
       if (!splits) word += c;
       if (!splits) continue;
-      if (word.size() >= kLeastWord) words.insert(lower_case(word));
+      // Short numbers stand in too many names; short names are looked for as whole words.
+      if (word.size() >= kLeastWord || (tag == kPatient && !word.empty()))
+        words.insert(lower_case(word));
       word.clear();
     }
   }
@@ -149,13 +153,23 @@ bool has_odd_pixels(const Header& header) {
          header.binary(kSamples) != 1 || !header.text(kColours).starts_with("MONOCHROME");
 }
 
+/// The way from pixels to Hounsfield units; GDCM takes what it cannot read for 1 or 0.
+bool has_odd_scale(const Header& header) {
+  const auto is_number = [&](const DicomTag& tag) {
+    const auto numbers = header.numbers(tag);
+    return header.text(tag).empty() || (numbers.size() == 1 && std::isfinite(numbers[0]));
+  };
+  const auto slope = header.numbers(kSlope);
+  return !is_number(kIntercept) || !is_number(kSlope) || (slope.size() == 1 && slope[0] == 0);
+}
+
 /// All bytes of a DICOM file, or the first few of another.
 std::string bytes_of(const fs::path& file) {
   std::ifstream in(file, std::ios::binary);
   std::string bytes(256, '\0');
   in.read(bytes.data(), std::streamsize(bytes.size()));
   bytes.resize(std::size_t(in.gcount()));
-  return begins_as_dicom(bytes) ? read_file(file) : bytes;
+  return begins_as_dicom(bytes) ? without_padding(read_file(file)) : bytes;
 }
 
 bool begins_as_picture(const fs::path& file) {
@@ -195,15 +209,35 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
         "slice, as scanners and 3D Slicer export them";
   else if (has_odd_pixels(header))
     slice.fault = "holds a picture of another kind than a CT's (one value of 16 bits a pixel)";
+  else if (has_odd_scale(header))
+    slice.fault =
+        "states a RescaleSlope or RescaleIntercept that is no number, or a slope of 0; expected "
+        "those that give Hounsfield units";
   else if (read_place(header, slice); slice.fault.empty() && header.has_wrong_length())
     slice.fault = "is damaged: its picture has fewer pixels than it states";
   return slice;
 }
 
+/// Bytes of letters beyond ASCII count as letters.
+bool is_of_word(char c) {
+  const auto byte = static_cast<unsigned char>(c);
+  return byte >= 0x80 || std::isalnum(byte) != 0;
+}
+
+bool holds_word(const std::string& low, const std::string& word) {
+  if (word.size() >= kLeastWord) return low.find(word) != std::string::npos;
+  for (auto at = low.find(word); at != std::string::npos; at = low.find(word, at + 1)) {
+    const std::size_t end = at + word.size();
+    if ((at == 0 || !is_of_word(low[at - 1])) && (end == low.size() || !is_of_word(low[end])))
+      return true;
+  }
+  return false;
+}
+
 bool names_patient(const std::string& name, const std::set<std::string>& words) {
   const std::string low = lower_case(name);
   return std::any_of(words.begin(), words.end(),
-                     [&](const std::string& word) { return low.find(word) != std::string::npos; });
+                     [&](const std::string& word) { return holds_word(low, word); });
 }
 
 }  // namespace
@@ -242,7 +276,7 @@ std::string DicomFolder::shown(const fs::path& path) const {
 }
 
 void read_pixels(const DicomSlice& slice, float* to) {
-  const std::string whole = read_file(slice.file);
+  const std::string whole = without_padding(read_file(slice.file));
   std::optional<DicomPixels> read;
   if (fault_of_dicom(whole).empty()) read = itk_library().pixels_of(whole);
   if (!read || read->columns != slice.place.columns || read->rows != slice.place.rows)

@@ -44,10 +44,15 @@ class Walk {
     while (at_ + 4 <= bytes_.size() && peek_tag() >> 16U == 2) element(true, 0);
     if (at_ == bytes_.size()) throw Fault{kCut};
     check_syntax();
-    while (at_ < bytes_.size()) element(explicit_, 0);
+    while (at_ < bytes_.size() && !is_padding()) element(explicit_, 0);
   }
+  std::size_t at() const { return at_; }
 
  private:
+  /// Some programs fill a file with zeros behind the pixels.
+  bool is_padding() const {
+    return has_picture_ && bytes_.find_first_not_of('\0', at_) == std::string_view::npos;
+  }
   std::uint32_t number(int count) {
     if (bytes_.size() - at_ < std::size_t(count)) throw Fault{kCut};
     std::uint32_t out = 0;
@@ -84,6 +89,7 @@ class Walk {
 
   void element(bool is_explicit, int depth) {
     const std::uint32_t which = tag();
+    has_picture_ |= which == kPicture && depth == 0;
     std::string_view kind;
     std::uint32_t length = 0;
     if (is_explicit) {
@@ -137,7 +143,7 @@ class Walk {
 
   std::string_view bytes_, syntax_;
   std::size_t at_ = 0;
-  bool explicit_ = true;
+  bool explicit_ = true, has_picture_ = false;
 };
 
 }  // namespace
@@ -153,6 +159,17 @@ std::string fault_of_dicom(std::string_view bytes) {
     return fault.what;
   }
   return "";
+}
+
+std::string without_padding(std::string bytes) {
+  Walk walk(bytes);
+  try {
+    walk.all();
+    bytes.resize(walk.at());
+  } catch (const Fault&) {
+    return bytes;  // whose fault is told elsewhere
+  }
+  return bytes;
 }
 
 }  // namespace hyperex::ct

@@ -15,4 +15,7 @@ bool begins_as_dicom(std::string_view bytes);
 /// looked at, that of the transfer syntax excepted.
 std::string fault_of_dicom(std::string_view bytes);
 
+/// The bytes without zeros behind the last element, at which GDCM ends the program.
+std::string without_padding(std::string bytes);
+
 }  // namespace hyperex::ct

@@ -13,7 +13,7 @@ constexpr double kStep_m = 5e-4, kFlat_m = 3e-4, kPatch_m = 0.015;
 constexpr double kFromEnds_m = 0.01, kMiddleOfFace_m = 0.03, kMidline_m = 2e-3;
 constexpr double kNoseToLip_m = 0.03, kRootLow_m = 0.018, kRootHigh_m = 0.075;
 constexpr double kChin_m = 0.03, kFrontOfJaw_m = 0.025, kMiddleOfJaw_m = 0.012,
-                 kChinOfBone_m = 0.02;
+                 kChinOfBone_m = 0.02, kFromEndOfJaw_m = 2e-3;
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 /// How far forward the skin is, seen from the front.
@@ -126,6 +126,37 @@ Vec3 most_forward_at(const FrontView& view, double middle_x, double y) {
   return count > 0 ? Vec3(sum_x / count, y, sum_z / count) : Vec3::Constant(kNone);
 }
 
+double front_of_jaw_m(const TriMesh& mandible) {
+  return mandible.points.col(2).maxCoeff() - kFrontOfJaw_m;
+}
+
+/// The lowest vertex of the front of the jaw, at most `half_m` beside the middle.
+std::optional<Vec3> lowest_in_front(const TriMesh& mandible, double middle_x, double half_m) {
+  const double front = front_of_jaw_m(mandible);
+  Eigen::Index best = -1;
+  for (Eigen::Index v = 0; v < mandible.points.rows(); ++v)
+    if (mandible.points(v, 2) >= front && std::abs(mandible.points(v, 0) - middle_x) <= half_m &&
+        (best < 0 || mandible.points(v, 1) < mandible.points(best, 1)))
+      best = v;
+  if (best < 0) return std::nullopt;
+  return Vec3(mandible.points.row(best).transpose());
+}
+
+/// Menton and pogonion of the midline: beside it the jaw's lower edge may hang lower.
+void take_points_of_bone(FoundPoints& out, const TriMesh& mandible, double middle_x) {
+  const auto menton = lowest_in_front(mandible, middle_x, kMidline_m);
+  if (!menton) return;
+  // At the end of the range the bone goes on downwards behind it.
+  if (menton->z() > front_of_jaw_m(mandible) + kFromEndOfJaw_m) out.bone_menton_m = menton;
+  Eigen::Index best = -1;
+  for (Eigen::Index v = 0; v < mandible.points.rows(); ++v)
+    if (std::abs(mandible.points(v, 0) - middle_x) <= kMidline_m &&
+        mandible.points(v, 1) <= menton->y() + kChinOfBone_m &&
+        (best < 0 || mandible.points(v, 2) > mandible.points(best, 2)))
+      best = v;
+  out.bone_pogonion_m = mandible.points.row(best).transpose();
+}
+
 }  // namespace
 
 FoundPoints find_points(const Volume& head, double skin_hu, const TriMesh& skin,
@@ -147,24 +178,11 @@ FoundPoints find_points(const Volume& head, double skin_hu, const TriMesh& skin,
           profile_of(view, nose.x(), nose.y() + kRootLow_m, nose.y() + kRootHigh_m), nose.x()))
     out.skin["nasion"] = *at;
   if (!jaw) return out;
-  const double front = mandible.points.col(2).maxCoeff() - kFrontOfJaw_m,
-               middle_x = middle(mandible);
-  const auto in_front = [&](Eigen::Index v) {
-    return mandible.points(v, 2) >= front &&
-           std::abs(mandible.points(v, 0) - middle_x) <= kMiddleOfJaw_m;
-  };
-  Eigen::Index menton = -1, pogonion = -1;
-  for (Eigen::Index v = 0; v < mandible.points.rows(); ++v)
-    if (in_front(v) && (menton < 0 || mandible.points(v, 1) < mandible.points(menton, 1)))
-      menton = v;
-  if (menton < 0) return out;
-  const double low_y = mandible.points(menton, 1);
-  for (Eigen::Index v = 0; v < mandible.points.rows(); ++v)
-    if (in_front(v) && mandible.points(v, 1) <= low_y + kChinOfBone_m &&
-        (pogonion < 0 || mandible.points(v, 2) > mandible.points(pogonion, 2)))
-      pogonion = v;
-  out.bone_menton_m = mandible.points.row(menton).transpose();
-  out.bone_pogonion_m = mandible.points.row(pogonion).transpose();
+  const double middle_x = middle(mandible);
+  const auto lowest = lowest_in_front(mandible, middle_x, kMiddleOfJaw_m);
+  if (!lowest) return out;
+  const double low_y = lowest->y();
+  take_points_of_bone(out, mandible, middle_x);
   const Profile chin = profile_of(view, middle_x, low_y, low_y + kChin_m);
   if (const auto y = height_of_chin(chin)) {
     const Vec3 at = most_forward_at(view, middle_x, *y);

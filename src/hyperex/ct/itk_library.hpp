@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Internal to the module: what ITK and GDCM do for it. Their 25 shared libraries would double the
-// time in which every command starts. So they are linked to a library of their own, hx_itk.so
-// (itk_module.cpp), which is loaded with the first CT. It shares with the program only the
-// interface in this header and uses no other code of Hyperex.
+// Internal to the module: what ITK and GDCM do for it. Their shared libraries would delay the
+// start of every command (docs/architecture.md). So they are linked to a library of their own,
+// hx_itk.so (itk_module.cpp), which is loaded with the first CT. It shares with the program only
+// the interface in this header and uses no other code of Hyperex.
 #include <array>
 #include <cstdint>
 #include <optional>

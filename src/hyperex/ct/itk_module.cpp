@@ -12,7 +12,9 @@
 #include <itkRelabelComponentImageFilter.h>
 #include <itkSignedMaurerDistanceMapImageFilter.h>
 
+#include <new>
 #include <sstream>
+#include <stdexcept>
 
 #include "hyperex/ct/itk_library.hpp"
 
@@ -38,6 +40,18 @@ ByteImage::Pointer image_of(const Bytes& mask, const ItkGrid& grid) {
   image->GetPixelContainer()->SetImportPointer(const_cast<std::uint8_t*>(mask.data()), mask.size(),
                                                false);
   return image;
+}
+
+/// Computes the output of a filter. ITK's own errors have several lines, and the commonest is that
+/// there was no memory for an image.
+void update(itk::ProcessObject& filter) {
+  try {
+    filter.Update();
+  } catch (const itk::MemoryAllocationError&) {
+    throw std::bad_alloc();
+  } catch (const itk::ExceptionObject&) {
+    throw std::runtime_error("a filter of ITK failed on the CT's values");
+  }
 }
 
 class Module final : public ItkLibrary {
@@ -135,7 +149,7 @@ class Module final : public ItkLibrary {
     filter->SetFullyConnected(corners);
     auto sorted = itk::RelabelComponentImageFilter<NumberImage, NumberImage>::New();
     sorted->SetInput(filter->GetOutput());
-    sorted->Update();
+    update(*sorted);
     const std::uint32_t* from = sorted->GetOutput()->GetBufferPointer();
     number.assign(from, from + mask.size());
     count.assign(1, 0);
@@ -149,7 +163,7 @@ class Module final : public ItkLibrary {
     filter->SetSquaredDistance(false);
     filter->SetUseImageSpacing(true);
     filter->SetInsideIsPositive(false);
-    filter->Update();
+    update(*filter);
     const float* from = filter->GetOutput()->GetBufferPointer();
     return {from, from + mask.size()};
   }
@@ -160,7 +174,7 @@ class Module final : public ItkLibrary {
     filter->SetInput2(image_of(markers, grid));
     filter->SetMarkWatershedLine(false);
     filter->SetFullyConnected(false);
-    filter->Update();
+    update(*filter);
     const std::uint8_t* from = filter->GetOutput()->GetBufferPointer();
     return {from, from + level.size()};
   }

@@ -14,6 +14,8 @@ namespace hyperex::ct {
 namespace {
 namespace fs = std::filesystem;
 
+constexpr double kLeastInside = 0.98;
+
 void smooth_along(Volume& volume, int axis) {
   const std::size_t step = axis == 0   ? 1
                            : axis == 1 ? std::size_t(volume.size[0])
@@ -48,15 +50,30 @@ TriMesh surface_of(const Volume& labels, int label, const fs::path& file) {
   return mesh;
 }
 
-void check_inside(const TriMesh& bone, const TriMesh& skin, const fs::path& file) {
+/// A bone in the frame of the patient lies turned in the one of the face, and so do its vertices
+/// lie in air, even where the two frames have one origin within the head.
+void check_inside(const TriMesh& bone, const Volume& head, double skin_hu, const fs::path& file) {
   if (bone.triangles.rows() == 0) return;
-  const Vec3 low = skin.points.colwise().minCoeff().transpose(),
-             high = skin.points.colwise().maxCoeff().transpose();
-  const Vec3 middle = (bone.points.colwise().minCoeff() + bone.points.colwise().maxCoeff()) / 2;
-  if ((middle.array() < low.array()).any() || (middle.array() > high.array()).any())
+  Eigen::Index inside = 0;
+  for (Eigen::Index v = 0; v < bone.points.rows(); ++v)
+    inside += head.sample(bone.points.row(v).transpose()) >= skin_hu ? 1 : 0;
+  const double share = double(inside) / double(bone.points.rows());
+  if (share < kLeastInside)
+    throw InputError(file, fmt::format("{:.0f} % of the bone lies in the head's tissue; expected "
+                                       "at least {:.0f} %, in the frame of the patient, or "
+                                       "another --bones-frame",
+                                       std::floor(100 * share), 100 * kLeastInside));
+}
+
+double middle_height_m(const TriMesh& mesh) {
+  return (mesh.points.col(1).minCoeff() + mesh.points.col(1).maxCoeff()) / 2;
+}
+
+void check_order(const BoneSurfaces& bones, const fs::path& file) {
+  if (middle_height_m(bones.mandible) >= middle_height_m(bones.skull))
     throw InputError(file,
-                     "the middle of the bone lies outside the skin; expected the frame of the "
-                     "patient, or --bones-frame face");
+                     "the mandible lies above the middle of the skull; expected skull and mandible "
+                     "not the other way round, or another --bones-frame");
 }
 
 }  // namespace
@@ -68,22 +85,28 @@ TriMesh label_surface(const Volume& labels, int label) {
   return iso_surface(flags, 0.5);
 }
 
-BoneSurfaces read_own_bones(const OwnBones& own, const TriMesh& skin) {
+BoneSurfaces read_own_bones(const OwnBones& own, const Volume& head, double skin_hu) {
   BoneSurfaces out;
-  if (!own.labels.empty()) {
+  const bool of_labels = !own.labels.empty();
+  const fs::path& skull = of_labels ? own.labels : own.skull;
+  const fs::path& mandible = of_labels ? own.labels : own.mandible;
+  if (of_labels) {
     if (!is_volume_file(own.labels))
       throw InputError(own.labels, "expected labels as .nrrd, .nii or .nii.gz");
     const Volume labels = read_volume_file(own.labels);
     out.skull = surface_of(labels, own.skull_label, own.labels);
     out.mandible = surface_of(labels, own.mandible_label, own.labels);
-    check_inside(out.skull, skin, own.labels);
-    check_inside(out.mandible, skin, own.labels);
-    return out;
+  } else {
+    if (skull.empty() || mandible.empty())
+      throw InputError(fmt::format("{} alone: expected {} too",
+                                   skull.empty() ? "--mandible" : "--skull",
+                                   skull.empty() ? "--skull" : "--mandible"));
+    out.skull = read_surface(skull, own.frame);
+    out.mandible = read_surface(mandible, own.frame);
   }
-  if (!own.skull.empty()) out.skull = read_surface(own.skull, own.frame);
-  if (!own.mandible.empty()) out.mandible = read_surface(own.mandible, own.frame);
-  check_inside(out.skull, skin, own.skull);
-  check_inside(out.mandible, skin, own.mandible);
+  check_inside(out.skull, head, skin_hu, skull);
+  check_inside(out.mandible, head, skin_hu, mandible);
+  check_order(out, mandible);
   return out;
 }
 

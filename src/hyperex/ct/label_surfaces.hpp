@@ -22,9 +22,10 @@ struct BoneSurfaces {
   TriMesh skull, mandible;  ///< the frame of a face, m; without triangles where there is none
 };
 
-/// Throws InputError where a file cannot be read, a label does not occur, or a surface lies beside
-/// `skin`: wholly outside its box.
-BoneSurfaces read_own_bones(const OwnBones& own, const TriMesh& skin);
+/// Throws InputError where one of two surfaces is missing, a file cannot be read, a label does not
+/// occur, fewer than 98 % of a surface's vertices lie where `head` has at least `skin_hu`, or the
+/// mandible's middle is above the skull's.
+BoneSurfaces read_own_bones(const OwnBones& own, const Volume& head, double skin_hu);
 
 /// The surface of one label: the flags, smoothed by weights 1 2 1 along each axis, at one half.
 TriMesh label_surface(const Volume& labels, int label);

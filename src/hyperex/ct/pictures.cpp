@@ -158,8 +158,9 @@ render::Image draw_thickness(const CtFace& face) {
   const render::Range range{0, top};
   render::ContactSheet sheet;
   sheet.title = "Thickness of the soft tissue: shortest distance to bone";
-  sheet.note =
-      "in front of the mandible's back and above the lower edge of the jaw; elsewhere plain";
+  sheet.note = face.separated ? "in front of the mandible's back and above the lower edge of the "
+                                "jaw; elsewhere plain"
+                              : "in front of the middle of the skull; elsewhere plain";
   sheet.columns = 3;
   sheet.bar = render::ColourBar{range, "mm", true};
   const render::RenderOptions options{.width_px = 420, .height_px = 560};

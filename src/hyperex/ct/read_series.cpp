@@ -2,15 +2,19 @@
 #include "hyperex/ct/read_series.hpp"
 
 #include <fmt/format.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
+#include <ctime>
 #include <map>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/interrupt.hpp"
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/core/temporary.hpp"
 #include "hyperex/ct/dicom_slices.hpp"
 #include "hyperex/io/zip.hpp"
 
@@ -19,6 +23,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr double kUpright_deg = 0.5;
+constexpr long kNew_s = 10;
 
 /// The slices of one series.
 using Group = std::vector<const DicomSlice*>;
@@ -134,14 +139,36 @@ SeriesVolume read_folder(const fs::path& folder, const fs::path& source,
   return out;
 }
 
+constexpr const char* kUnpacked = "hyperex_ct_";
+
+/// Removes the folders of this user that killed calls left in the temporary folder. Those that a
+/// living process uses are locked.
+void remove_unpacked_leftovers() {
+  std::error_code error, ignored;
+  std::vector<fs::path> found;
+  for (fs::directory_iterator at(fs::temp_directory_path(), error), end; !error && at != end;
+       at.increment(error))
+    if (at->path().filename().string().starts_with(kUnpacked)) found.push_back(at->path());
+  for (const fs::path& path : found) {
+    struct stat status {};
+    // A new folder is not locked at once.
+    if (::lstat(path.c_str(), &status) != 0 || !S_ISDIR(status.st_mode) ||
+        status.st_uid != ::geteuid() || std::time(nullptr) - status.st_mtime < kNew_s)
+      continue;
+    if (const InUse lock(path); lock.held()) fs::remove_all(path, ignored);
+  }
+}
+
 /// A new folder that only its owner may read; removed at the end.
 class UnpackedFolder {
  public:
   UnpackedFolder() {
-    std::string name = (fs::temp_directory_path() / "hyperex_ct_XXXXXX").string();
+    remove_unpacked_leftovers();
+    std::string name = (fs::temp_directory_path() / (std::string(kUnpacked) + "XXXXXX")).string();
     if (::mkdtemp(name.data()) == nullptr)
       throw InputError(fs::temp_directory_path(), "no folder can be made there to unpack into");
     path_.emplace(name);
+    in_use_.emplace(path_->path());
   }
   ~UnpackedFolder() {
     std::error_code ignored;
@@ -153,7 +180,20 @@ class UnpackedFolder {
 
  private:
   std::optional<TemporaryPath> path_;
+  std::optional<InUse> in_use_;
 };
+
+/// What unzip() says names entries, and an entry may name the patient.
+void unpack(const fs::path& zip, const fs::path& folder) {
+  try {
+    io::unzip(zip, folder);
+  } catch (const InputError&) {
+    throw InputError(zip,
+                     "cannot be unpacked: it is no zip, damaged, encrypted or too large, or one of "
+                     "its names or kinds of file is not allowed; expected a sound zip, or the "
+                     "folder that another program unpacks from it");
+  }
+}
 
 }  // namespace
 
@@ -172,7 +212,7 @@ SeriesVolume read_series(const fs::path& source, const SeriesChoice& choice) {
   }
   if (lower_case(source.extension().string()) == ".zip") {
     const UnpackedFolder unpacked;
-    io::unzip(source, unpacked.inside());
+    unpack(source, unpacked.inside());
     return read_folder(unpacked.inside(), source, choice);
   }
   throw InputError(

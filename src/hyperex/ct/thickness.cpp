@@ -61,6 +61,8 @@ Region region_of(const Vec3& p, const FoundPoints& points) {
     if (std::abs(across) <= kHalfChin_m && above <= kAboveChin_m) return Region::chin;
     if (std::abs(across) <= kHalfLips_m && above > kAboveChin_m && p.y() <= n.y() - kBelowNose_m)
       return Region::lips;
+  } else if (std::abs(across) <= kHalfLips_m && p.y() <= n.y() - kBelowNose_m) {
+    return Region::none;  // lips and chin are not told apart
   }
   return across > 0 ? Region::cheek_left : Region::cheek_right;
 }

@@ -76,16 +76,60 @@ double half_way(const Histogram& histogram, double skin_hu) {
   return std::round(std::clamp(at, kLeastBone_hu, kMostBone_hu));
 }
 
+double middle_of(std::vector<float> values, double share) {
+  const auto at = values.begin() + std::ptrdiff_t(share * double(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Values in units of their own: air is what lies below the skin's, soft tissue what lies between.
+Thresholds of_given_values(const Volume& volume, double skin_hu, double bone_hu,
+                           const std::string& source) {
+  std::vector<float> air, soft;
+  for (const float v : volume.hu) {
+    if (v < skin_hu) air.push_back(v);
+    if (v >= skin_hu && v < bone_hu) soft.push_back(v);
+  }
+  if (air.empty() || soft.empty())
+    throw InputError(
+        fmt::format("{}: --skin-hu = {:g}, --bone-hu = {:g}: expected values of the "
+                    "volume below the first and between the two",
+                    source, skin_hu, bone_hu));
+  Thresholds out;
+  out.is_hu = false;
+  out.skin_given = true;
+  out.skin_hu = skin_hu;
+  out.air_hu = middle_of(air, 0.5);
+  out.soft_hu = middle_of(soft, 0.5);
+  out.noise_hu = (middle_of(soft, 0.75) - middle_of(soft, 0.25)) / kQuartilesToSigma;
+  return out;
+}
+
+void check_range(const char* option, std::optional<double> hu, double low_hu, double high_hu) {
+  if (hu && !(*hu >= low_hu && *hu <= high_hu))
+    throw InputError(
+        fmt::format("{} = {:g}: expected {:g} to {:g} where the values are Hounsfield "
+                    "units",
+                    option, *hu, low_hu, high_hu));
+}
+
 }  // namespace
 
 Thresholds find_skin_threshold(const Volume& volume, const std::string& source,
-                               std::optional<double> skin_hu) {
+                               std::optional<double> skin_hu, std::optional<double> bone_hu) {
   const Histogram histogram(volume.hu);
-  if (histogram.share(-1100, -850) < kLeastShare || histogram.share(-150, 200) < kLeastShare)
+  const bool is_hu =
+      histogram.share(-1100, -850) >= kLeastShare && histogram.share(-150, 200) >= kLeastShare;
+  if (!is_hu && skin_hu && bone_hu && *skin_hu < *bone_hu)
+    return of_given_values(volume, *skin_hu, *bone_hu, source);
+  if (!is_hu)
     throw InputError(fmt::format(
         "{}: its values are no Hounsfield units (air about -1000, soft tissue about 40); expected "
-        "a CT, as an MRI or another picture shows no bone to measure",
+        "a CT, as an MRI or another picture shows no bone to measure, or --skin-hu and a greater "
+        "--bone-hu for a cone-beam CT in other units",
         source));
+  check_range("--skin-hu", skin_hu, -900, 200);
+  check_range("--bone-hu", bone_hu, 50, 2000);
   Thresholds out;
   out.air_hu = histogram.mode(-1100, -850);
   out.soft_hu = histogram.mode(-150, 200);

@@ -12,15 +12,18 @@ struct Thresholds {
   double skin_hu = 0, bone_hu = 0;
   bool skin_given = false, bone_given = false;
   double air_hu = 0, soft_hu = 0;  ///< the commonest values of air and of soft tissue
+  bool is_hu = true;               ///< false: other units, and both values were given
   double noise_hu = 0;             ///< standard deviation in soft tissue, from its quartiles
 };
 
 /// The skin's value: half-way between the commonest value of air (-1100 to -850 HU) and that of
-/// soft tissue (-150 to 200 HU), as an edge blurred by the scanner lies at its middle. Throws
-/// InputError (naming `source`) where there is no air or no soft tissue: values that are no
-/// Hounsfield units, as of an MRI.
+/// soft tissue (-150 to 200 HU), as an edge blurred by the scanner lies at its middle. Values
+/// without air or soft tissue are no Hounsfield units, as of an MRI: where both values are given,
+/// air is the median below the skin's and soft tissue that between the two. Throws InputError
+/// (naming `source`) where not both are, or a given one is impossible.
 Thresholds find_skin_threshold(const Volume& volume, const std::string& source,
-                               std::optional<double> skin_hu = {});
+                               std::optional<double> skin_hu = {},
+                               std::optional<double> bone_hu = {});
 
 /// Adds the bone's value, found in a volume without couch: half-way between the mean of what is
 /// below it, down to the skin's value, and the mean of what is above it (T. Ridler and S. Calvard,

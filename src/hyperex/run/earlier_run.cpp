@@ -39,6 +39,8 @@ std::set<std::string> files_of_earlier_run(const fs::path& folder) {
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
   const json summary = json::parse(read_file(file), nullptr, false);
   if (!summary.is_object() || summary.value("program", json()) != "hyperex") return {};
+  // The summaries of a run name no command; those of other commands do, and are not a run's.
+  if (summary.contains("command")) return {};
   std::set<std::string> names;
   if (const auto listed = summary.find("files"); listed != summary.end()) {
     for (const json& name : *listed)

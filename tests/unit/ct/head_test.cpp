@@ -51,9 +51,32 @@ TEST(Head, ThresholdsAreHalfWay) {
 TEST(Head, RefusesValuesThatAreNoHounsfieldUnits) {
   Volume mri = volume_of(test::small_head());
   for (float& v : mri.hu) v = (v + 1024) / 3;
-  EXPECT_THAT(test::refusal([&] { face_of(mri); }), HasSubstr("no Hounsfield units"));
+  EXPECT_THAT(test::refusal([&] { face_of(mri); }),
+              testing::AllOf(HasSubstr("no Hounsfield units"), HasSubstr("--skin-hu and"),
+                             HasSubstr("--bone-hu")));
   Volume nothing = volume_of({test::ball({0, 0, 0}, 8), test::ball({0, 0, 0}, 3), 0});
   EXPECT_THAT(test::refusal([&] { face_of(nothing); }), HasSubstr("series: "));
+}
+
+TEST(Head, OtherUnitsAreTakenWithBothValues) {
+  const test::MadeHead head = test::small_head();
+  Volume other = volume_of(head);
+  for (float& v : other.hu) v = 3000 + 2 * v;
+  CtOptions options;
+  options.skin_hu = 2040;
+  EXPECT_THAT(test::refusal([&] { face_of(other, options); }), HasSubstr("--bone-hu"));
+  options.bone_hu = 4000;
+  const CtFace face = face_of(other, options);
+  EXPECT_THAT(face.warnings, testing::Contains(HasSubstr("no Hounsfield units")));
+  EXPECT_NEAR(face.thresholds.air_hu, 1000, 30);
+  EXPECT_NEAR(face.thresholds.soft_hu, 3080, 30);
+  EXPECT_NEAR(face.thresholds.noise_hu, 60, 20);
+  EXPECT_EQ(face.metal_cm3, 0);
+  EXPECT_LT(farthest_mm(face.skin, head.skin), 1.0);
+  EXPECT_TRUE(face.separated);
+  options.skin_hu = -5000;
+  EXPECT_THAT(test::refusal([&] { face_of(other, options); }),
+              HasSubstr("expected values of the volume below the first"));
 }
 
 TEST(Head, SurfacesLieOnTheMadeOnes) {
@@ -93,6 +116,19 @@ TEST(Head, SeedsPartTheJawToo) {
               HasSubstr("series: --seed-mandible: no bone within 6 mm of 0.0,-70.0,32.0 mm"));
 }
 
+TEST(Head, SeedsThatAreNotOneInEachAreRefused) {
+  const Volume volume = volume_of(test::small_head());
+  CtOptions options;
+  const Vec3 skull(0, 0.045, -0.006), jaw(0, -0.034, 0.032);
+  options.seeds = Seeds{jaw, jaw};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }), HasSubstr("within 6 mm"));
+  options.seeds = Seeds{jaw, jaw + Vec3(0.004, 0, 0)};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }), HasSubstr("within 6 mm"));
+  options.seeds = Seeds{jaw, skull};
+  EXPECT_THAT(test::refusal([&] { face_of(volume, options); }),
+              HasSubstr("the mandible would be larger than the skull"));
+}
+
 TEST(Head, WithoutAJawSaysSo) {
   test::MadeHead head = test::small_head();
   head.bone = test::small_skull();
@@ -120,6 +156,50 @@ TEST(Head, ACouchIsRemoved) {
     if (const Vec3 p = 1e3 * face.skin.points.row(v).transpose(); p.z() > -46)
       farthest = std::max(farthest, std::abs(alone(p)));
   EXPECT_LT(farthest, 1.0);
+}
+
+/// A stack through a head of an adult's size that lies on a couch; most of its columns are dense in
+/// every slice.
+TEST(Head, AShortStackKeepsTheHeadAndLosesTheCouch) {
+  const test::Shape alone = test::ellipsoid({0, 0, 0}, {75, 150, 95});
+  const test::Shape couch = test::box({-110, -300, -114}, {110, 300, -94});
+  const test::MadeHead head{test::joined(alone, couch),
+                            test::without(test::ellipsoid({0, 0, 0}, {68, 140, 86}),
+                                          test::ellipsoid({0, 0, 0}, {62, 134, 80})),
+                            0};
+  for (const double height_mm : {70.0, 100.0}) {
+    const Volume volume = test::volume_of(head, {0, 0, 0}, {230, 250, height_mm}, {2, 2, 2});
+    const Body body = find_body(volume, find_skin_threshold(volume, "series"), "series");
+    EXPECT_TRUE(body.couch);
+    EXPECT_FALSE(body.doubtful_couch);
+    // 20 mm by 220 mm, with the 2.5 mm of the head that touch it.
+    EXPECT_NEAR(body.couch_cm3, 4.4 * height_mm, 0.15 * 4.4 * height_mm);
+    int missing = 0, beside = 0;
+    for (int k = 0; k < volume.size[2]; ++k)
+      for (int j = 0; j < volume.size[1]; ++j)
+        for (int i = 0; i < volume.size[0]; ++i) {
+          const Vec3 p = 1e3 * volume.place(i, j, k);
+          const bool kept = body.mask[volume.at(i, j, k)] != 0;
+          missing += alone(p) < -2 && p.z() > -90 && !kept ? 1 : 0;
+          beside += alone(p) > 2 && kept ? 1 : 0;
+        }
+    EXPECT_EQ(missing, 0);
+    EXPECT_EQ(beside, 0);
+  }
+}
+
+TEST(Head, ACouchThatIsMostOfAllIsKeptWithAWarning) {
+  test::MadeHead head = test::small_head();
+  for (const double side : {-1.0, 1.0}) {
+    const test::Shape sheets =
+        test::joined(test::box({-90, -90, side > 0 ? 60.0 : -76}, {90, 90, side > 0 ? 82.0 : -60}),
+                     test::box({side > 0 ? 52.0 : -78, -90, -76}, {side > 0 ? 78.0 : -52, 90, 82}));
+    head.skin = test::joined(head.skin, sheets);
+  }
+  const Volume volume = test::volume_of(head, {0, 0, 5}, {180, 170, 126}, {2, 2, 2});
+  const Body body = find_body(volume, find_skin_threshold(volume, "series"), "series");
+  EXPECT_TRUE(body.doubtful_couch);
+  EXPECT_FALSE(body.couch);
 }
 
 TEST(Head, AirInsideIsNoSkin) {

@@ -63,10 +63,13 @@ TEST(OwnBones, AreTakenFromSurfacesOfThePatientOrTheFace) {
   TriMesh patient = ours.bones.skull;
   patient.points = (patient.points * face_from_patient()).eval();
   io::write_ply(folder / "patient.ply", patient, io::LengthUnit::millimetre);
+  TriMesh patient_jaw = ours.bones.mandible;
+  patient_jaw.points = (patient_jaw.points * face_from_patient()).eval();
+  io::write_ply(folder / "patient_jaw.ply", patient_jaw, io::LengthUnit::millimetre);
   io::write_ply(folder / "face.ply", ours.bones.skull, io::LengthUnit::millimetre);
   io::write_ply(folder / "jaw.ply", ours.bones.mandible, io::LengthUnit::millimetre);
   CtOptions options;
-  options.own.skull = folder / "patient.ply";
+  options.own.skull = folder / "patient.ply", options.own.mandible = folder / "patient_jaw.ply";
   const CtFace of_patient = face_of_series(series, options);
   options.own.skull = folder / "face.ply", options.own.mandible = folder / "jaw.ply";
   options.own.frame = SurfaceFrame::face;
@@ -86,9 +89,38 @@ TEST(OwnBones, OfAnotherPlaceAreRefused) {
   away.triangles << 0, 1, 2;
   io::write_ply(folder / "away.ply", away, io::LengthUnit::millimetre);
   CtOptions options;
-  options.own.skull = folder / "away.ply";
+  options.own.skull = folder / "away.ply", options.own.mandible = folder / "away.ply";
   EXPECT_THAT(test::refusal([&] { face_of_series(series_of(), options); }),
-              HasSubstr("lies outside the skin"));
+              HasSubstr("0 % of the bone lies in the head's tissue"));
+}
+
+/// The head's middle is the origin of both frames: in the wrong one the bones still lie about
+/// there.
+TEST(OwnBones, OfACentredHeadInTheOtherFrameAreRefused) {
+  const TestFolder folder;
+  const SeriesVolume series = series_of();
+  const CtFace ours = face_of_series(series);
+  io::write_ply(folder / "skull.ply", ours.bones.skull, io::LengthUnit::millimetre);
+  io::write_ply(folder / "jaw.ply", ours.bones.mandible, io::LengthUnit::millimetre);
+  CtOptions options;
+  options.own.skull = folder / "skull.ply", options.own.mandible = folder / "jaw.ply";
+  EXPECT_THAT(test::refusal([&] { face_of_series(series, options); }),
+              HasSubstr("of the bone lies in the head's tissue"));
+  options.own.frame = SurfaceFrame::face;
+  std::swap(options.own.skull, options.own.mandible);
+  EXPECT_THAT(test::refusal([&] { face_of_series(series, options); }),
+              HasSubstr("the mandible lies above the middle of the skull"));
+}
+
+TEST(OwnBones, OneOfTwoIsRefused) {
+  const SeriesVolume series = series_of();
+  CtOptions options;
+  options.own.skull = "skull.ply";
+  EXPECT_EQ(test::refusal([&] { face_of_series(series, options); }),
+            "--skull alone: expected --mandible too");
+  options.own.mandible = "jaw.ply", options.own.skull.clear();
+  EXPECT_EQ(test::refusal([&] { face_of_series(series, options); }),
+            "--mandible alone: expected --skull too");
 }
 
 }  // namespace

@@ -163,6 +163,18 @@ void expect_same_skin_tilted(const CtFace& face) {
   EXPECT_LT(1e3 * farthest, 1.0);
 }
 
+/// Tolerances as stated with the data, and the width of the midline.
+void expect_points_of_bone(const Vec3& pogonion_off_mm, const Vec3& menton_off_mm) {
+  std::cout << "  bone pogonion " << pogonion_off_mm.transpose() << ", menton "
+            << menton_off_mm.transpose() << " mm from their places\n";
+  EXPECT_LT(std::abs(pogonion_off_mm.x()), 3);
+  EXPECT_LT(std::abs(pogonion_off_mm.y()), 4);
+  EXPECT_LT(std::abs(pogonion_off_mm.z()), 2);
+  EXPECT_LT(std::abs(menton_off_mm.x()), 3);
+  EXPECT_LT(std::abs(menton_off_mm.y()), 2);
+  EXPECT_LT(std::abs(menton_off_mm.z()), 5);
+}
+
 TEST_F(Phantom, IsMeasured) {
   CtOptions options;
   options.source = kFolder / "phantom_head.zip";
@@ -179,9 +191,56 @@ TEST_F(Phantom, IsMeasured) {
   EXPECT_LT(nose, 3);
   EXPECT_LT(chin, 3);
   ASSERT_TRUE(points.bone_pogonion_m && points.bone_menton_m);
-  EXPECT_LT(std::abs(1e3 * points.bone_pogonion_m->z() - point("bone_pogonion").z()), 2);
-  EXPECT_LT(std::abs(1e3 * points.bone_menton_m->y() - point("bone_menton").y()), 2);
+  expect_points_of_bone(1e3 * *points.bone_pogonion_m - point("bone_pogonion"),
+                        1e3 * *points.bone_menton_m - point("bone_menton"));
   expect_same_skin_tilted(face);
+}
+
+/// The slices from one height (mm, of the patient) to another.
+Volume between(const Volume& volume, double from_mm, double to_mm) {
+  Volume out = volume;
+  int first = volume.size[2], last = -1;
+  for (int k = 0; k < volume.size[2]; ++k)
+    if (const double y = 1e3 * volume.place(0, 0, k).y(); y >= from_mm && y <= to_mm)
+      first = std::min(first, k), last = std::max(last, k);
+  out.size[2] = last - first + 1;
+  out.origin_m = volume.place(0, 0, first);
+  const auto at = [&](int k) { return volume.hu.begin() + std::ptrdiff_t(volume.at(0, 0, k)); };
+  out.hu.assign(at(first), at(last + 1));
+  return out;
+}
+
+TEST_F(Phantom, ShortStacksKeepTheHead) {
+  const Volume whole = read_series(kFolder / "phantom_head.zip").volume;
+  for (const auto& [from_mm, to_mm] :
+       {std::pair{380, 470}, {360, 460}, {345, 407}, {420, 482}, {284, 346}}) {
+    const Volume volume = between(whole, from_mm, to_mm);
+    const Body body = find_body(volume, find_skin_threshold(volume, "phantom"), "phantom");
+    double kept = 0;
+    for (const auto v : body.mask) kept += v;
+    kept *= volume.voxel_m3() * 1e6;
+    std::cout << "  " << from_mm << " to " << to_mm << " mm: couch " << body.couch_cm3
+              << " cm3, kept " << kept << " cm3\n";
+    EXPECT_NEAR(body.couch_cm3 / (to_mm - from_mm), 7.4, 0.8) << from_mm;
+    EXPECT_GT(kept / (to_mm - from_mm), 9) << from_mm;
+  }
+}
+
+TEST_F(Phantom, ASkullSeedInAFragmentPartsTheSameJaw) {
+  const Volume volume = read_series(kFolder / "phantom_head.zip").volume;
+  Thresholds thresholds = find_skin_threshold(volume, "phantom");
+  const Body body = find_body(volume, thresholds, "phantom");
+  find_bone_threshold(body.volume, thresholds);
+  const Bones by_shape = find_bones(body, thresholds, {}, "phantom"),
+              by_seeds = find_bones(body, thresholds,
+                                    Seeds{{0.064, 0.410, 0.240}, {0.003, 0.336, 0.296}}, "phantom");
+  double skull = 0, other_skull = 0, jaw = 0, other_jaw = 0;
+  for (std::size_t v = 0; v < by_shape.label.size(); ++v) {
+    skull += by_shape.label[v] == kSkull, other_skull += by_seeds.label[v] == kSkull;
+    jaw += by_shape.label[v] == kMandible, other_jaw += by_seeds.label[v] == kMandible;
+  }
+  EXPECT_NEAR(other_skull / skull, 1, 0.05);
+  EXPECT_NEAR(other_jaw / jaw, 1, 0.05);
 }
 
 TEST_F(Phantom, HostileSeriesAreNamed) {

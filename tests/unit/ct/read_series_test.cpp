@@ -3,10 +3,13 @@
 
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <fstream>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/temporary.hpp"
 #include "support/made_ct.hpp"
 #include "support/refusal.hpp"
 #include "support/test_file.hpp"
@@ -154,6 +157,91 @@ TEST_F(ReadSeries, NamesNoPatient) {
   fs::remove(folder / "annabell_0005.dcm");  // one in the middle
   EXPECT_THAT(refused(folder),
               AllOf(HasSubstr("the series: 1 slice is missing"), Not(HasSubstr("oering"))));
+}
+
+TEST_F(ReadSeries, NamesNoPatientOfAZip) {
+  for (const char* name : {"doeringer_annabell.dcm", "doeringer:annabell.dcm"}) {
+    test::Zipped entry{name, std::string(5000, 'x')};
+    entry.crc_off = std::string(name).find(':') == std::string::npos ? 1 : 0;
+    std::ofstream(in("ct.zip"), std::ios::binary) << test::zip_of({entry});
+    EXPECT_THAT(refused(in("ct.zip")),
+                AllOf(HasSubstr("ct.zip: cannot be unpacked"), Not(HasSubstr("oering"))));
+  }
+}
+
+TEST_F(ReadSeries, ShortWordsOfThePatientAreFoundBetweenSeparators) {
+  test::DicomTags tags;
+  tags.patient = "Xi^Yo", tags.patient_id = "7";
+  test::write_dicom(in("ct"), ten_slices(), tags, "scan_Yo_");
+  const fs::path file = in("ct") / "scan_Yo_0004.dcm";
+  fs::resize_file(file, fs::file_size(file) - 100);
+  EXPECT_THAT(refused(in("ct")), HasSubstr("file 4 of 10 (in the order of their names) is cut"));
+  fs::rename(in("ct"), in("xi-ct"));
+  EXPECT_THAT(refused(in("xi-ct")), testing::StartsWith("the series: file 4"));
+  // Not within a word.
+  fs::rename(in("xi-ct"), in("exit"));
+  EXPECT_THAT(refused(in("exit")), HasSubstr("exit: file 4"));
+}
+
+TEST_F(ReadSeries, RemovesWhatAKilledCallHadUnpacked) {
+  const char* before = std::getenv("TMPDIR");
+  const std::string kept = before == nullptr ? "" : before;
+  fs::create_directory(in("tmp"));
+  ::setenv("TMPDIR", in("tmp").c_str(), 1);
+  for (const char* name : {"hyperex_ct_killed", "hyperex_ct_living", "hyperex_ct_new", "other"}) {
+    fs::create_directories(in("tmp") / name / "series");
+    std::ofstream(in("tmp") / name / "series" / "a.dcm") << "a slice";
+    if (std::string(name) != "hyperex_ct_new")
+      fs::last_write_time(in("tmp") / name,
+                          fs::file_time_type::clock::now() - std::chrono::minutes(1));
+  }
+  const InUse living(in("tmp") / "hyperex_ct_living");
+  std::ofstream(in("ct.zip"), std::ios::binary) << test::zip_of({{"a.txt", "a"}});
+  refused(in("ct.zip"));
+  EXPECT_FALSE(fs::exists(in("tmp") / "hyperex_ct_killed"));
+  EXPECT_TRUE(fs::exists(in("tmp") / "hyperex_ct_living"));
+  EXPECT_TRUE(fs::exists(in("tmp") / "hyperex_ct_new"));  // it may not be locked yet
+  EXPECT_TRUE(fs::exists(in("tmp") / "other"));
+  if (before == nullptr)
+    ::unsetenv("TMPDIR");
+  else
+    ::setenv("TMPDIR", kept.c_str(), 1);
+}
+
+TEST_F(ReadSeries, TakesZerosBehindThePixels) {
+  const Volume made = ten_slices();
+  test::write_dicom(in("ct"), made);
+  const fs::path file = in("ct") / "IM0004.dcm";
+  const std::string whole = read_file(file);
+  for (const std::size_t count : {1, 2, 7, 8, 512}) {
+    std::ofstream(file, std::ios::binary) << whole << std::string(count, '\0');
+    expect_same(read_series(in("ct")).volume, made);
+  }
+  std::ofstream(file, std::ios::binary) << whole << std::string(7, '\0') << 'x';
+  EXPECT_THAT(refused(in("ct")), HasSubstr("IM0004.dcm is "));
+}
+
+TEST_F(ReadSeries, RefusesAScaleThatGivesNoHounsfieldUnits) {
+  test::write_dicom(in("ct"), ten_slices());
+  const fs::path file = in("ct") / "IM0004.dcm";
+  const std::string whole = read_file(file);
+  const std::string slope(
+      "\x28\0\x53\x10"
+      "DS\x02\0",
+      8),
+      intercept(
+          "\x28\0\x52\x10"
+          "DS\x06\0",
+          8);
+  for (const auto& [tag, value] :
+       {std::pair{slope, "0 "}, {slope, "x "}, {intercept, "-1o24 "}, {intercept, "nan   "}}) {
+    std::string wrong = whole;
+    const auto at = wrong.find(tag);
+    ASSERT_NE(at, std::string::npos);
+    wrong.replace(at + 8, std::string(value).size(), value);
+    std::ofstream(file, std::ios::binary) << wrong;
+    EXPECT_THAT(refused(in("ct")), HasSubstr("IM0004.dcm states a RescaleSlope")) << value;
+  }
 }
 
 }  // namespace

@@ -160,5 +160,23 @@ TEST(Thickness, AlongTheNormalIsNoneWhereTheBoneIsMissed) {
   EXPECT_NEAR(some.shortest_m[1], std::sqrt(0.008 * 0.008 + 0.001 * 0.001 + 0.004 * 0.004), 1e-4);
 }
 
+TEST(Thickness, WithoutAPogonionLipsAndChinAreNoCheeks) {
+  TriMesh skin{Points(6, 3), Triangles(2, 3)}, bone{Points(3, 3), Triangles(1, 3)};
+  // Below the nose: in the middle, at the lips' end, beside them; above it: a cheek.
+  skin.points << 0, -0.02, 0.05, 0.029, -0.06, 0.05, 0.031, -0.06, 0.05, 0.04, 0, 0.05, -0.04, 0,
+      0.05, 0, 0.05, 0.05;
+  skin.triangles << 0, 1, 2, 3, 5, 4;
+  bone.points << -0.1, -0.1, 0.04, 0.1, -0.1, 0.04, 0, 0.2, 0.04;
+  bone.triangles << 0, 1, 2;
+  FoundPoints points;
+  points.skin["pronasale"] = Vec3(0, 0, 0.06);
+  FaceBounds bounds;
+  bounds.back_z_m = -1, bounds.chin_y_m = -1;
+  const Thickness found = measure_thickness(skin, bone, bounds, points);
+  const std::vector<Region> wanted = {Region::none,       Region::none,        Region::cheek_left,
+                                      Region::cheek_left, Region::cheek_right, Region::forehead};
+  EXPECT_EQ(found.region, wanted);
+}
+
 }  // namespace
 }  // namespace hyperex::ct

@@ -27,6 +27,13 @@ TEST(EarlierRun, IsKnownByItsSummaryAlone) {
   EXPECT_THAT(files_of_earlier_run(folder / ""), ElementsAre("all"));
 }
 
+TEST(EarlierRun, AnotherCommandsOutputsAreNotARuns) {
+  const SceneFolder folder;
+  folder.write("summary.json",
+               R"({"program": "hyperex", "command": "ct", "files": ["skin.ply", "summary.json"]})");
+  EXPECT_THAT(files_of_earlier_run(folder / ""), IsEmpty());
+}
+
 TEST(EarlierRun, WithoutAListTheNamesOfOutputsAreTaken) {
   const SceneFolder folder;  // with a face.ply, motion.csv, points.json
   folder.write("summary.json", "{\"program\": \"hyperex\"}");
