@@ -7,6 +7,8 @@
 #include <malloc.h>
 #endif
 
+#include <sys/resource.h>
+
 #include <csignal>
 #include <cstdlib>
 #include <exception>
@@ -164,6 +166,12 @@ int status_of(CLI::App& program, int argc, char** argv) {
   }
 }
 
+/// By `ulimit -v`.
+bool addresses_are_limited() {
+  rlimit space{};
+  return getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -191,8 +199,9 @@ int main(int argc, char** argv) {
   add_subcommands(program);
   const int status = status_of(program, argc, argv);
   const hyperex::Printed printed = hyperex::flush_standard_output();
-  // After memory has run out, some libraries may wait for their threads for ever at exit.
-  if (status == 1) std::_Exit(status);
+  // After memory has run out, some libraries may wait for their threads for ever at exit. OpenBLAS
+  // also does so where a limit on addresses leaves too few for its buffer.
+  if (status == 1 || (status != 0 && addresses_are_limited())) std::_Exit(status);
   if (status != 0 || printed.whole) return status;
   if (!printed.reader_left)
     print_error("standard output: the results could not be printed (" + printed.why + ")");
