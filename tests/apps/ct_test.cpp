@@ -102,7 +102,6 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
   std::ofstream(in("mine.txt")) << "mine";
   fs::create_directory(in("taken"));
   std::ofstream(in("taken/mine.txt")) << "mine";
-  const auto names = names_in(in(""));
   for (const auto& [arguments, words] :
        {std::pair{"ct none --out out", "no such file or folder"},
         std::pair{"ct empty --out out", "the folder is empty"},
@@ -119,14 +118,8 @@ TEST_F(Ct, RefusesInOneLineAndLeavesNothing) {
         std::pair{"ct series --out out --labels none.nrrd", "none.nrrd"},
         std::pair{"ct series --out out --labels mine.txt", "expected labels as"},
         std::pair{"ct series --out out --skull a.ply", "--skull alone: expected --mandible too"},
-        std::pair{"ct series --out out --skin-hu 300", "--skin-hu = 300: expected -900 to 200"}}) {
-    const Outcome outcome = call(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
-    const auto reported = problems_in(outcome.err);
-    ASSERT_EQ(reported.size(), 1u) << arguments << '\n' << outcome.err;
-    EXPECT_THAT(reported[0], HasSubstr(words)) << arguments;
-    EXPECT_EQ(names_in(in("")), names) << arguments;
-  }
+        std::pair{"ct series --out out --skin-hu 300", "--skin-hu = 300: expected -900 to 200"}})
+    expect_refused(arguments, words);
 }
 
 TEST_F(Ct, MissesItsLibraryInWords) {

@@ -7,7 +7,6 @@
 
 #include <functional>
 #include <iostream>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -29,22 +28,6 @@ struct Fault {
 
 inline void PrintTo(const Fault& fault, std::ostream* out) {
   *out << fault.name;
-}
-
-inline std::vector<std::string> problems_in(const std::string& err) {
-  std::vector<std::string> found;
-  std::istringstream lines(err);
-  for (std::string line; std::getline(lines, line);)
-    if (line.rfind("hyperex: ", 0) == 0) found.push_back(line);
-  return found;
-}
-
-inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
-    names.push_back(std::filesystem::relative(entry.path(), folder).string());
-  std::sort(names.begin(), names.end());
-  return names;
 }
 
 class GoodInputs : public ProgramTest {

@@ -22,17 +22,6 @@ class Outputs : public GoodInputs {
     const Outcome outcome = call("run scene.toml --out " + out);
     EXPECT_EQ(outcome.status, 0) << outcome.err;
   }
-  /// The command is refused in one line, and nothing is changed.
-  void expect_refused(const std::string& arguments, const std::string& words,
-                      const std::string& before = "true") const {
-    const auto names = names_in(in(""));
-    const Outcome outcome = call(arguments, before);
-    EXPECT_EQ(outcome.status, 2) << arguments;
-    const auto reported = problems_in(outcome.err);
-    ASSERT_EQ(reported.size(), 1u) << arguments << '\n' << outcome.err;
-    EXPECT_THAT(reported[0], HasSubstr(words)) << arguments;
-    EXPECT_EQ(names_in(in("")), names) << arguments;
-  }
 };
 
 TEST_F(Outputs, AFailedWriteBesideVariantsIsToldAndLeavesNothing) {

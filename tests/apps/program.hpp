@@ -2,6 +2,7 @@
 #pragma once
 // The program as a user calls it, with exit status, standard output and error kept separate. Each
 // test has its own folder.
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 
@@ -9,12 +10,30 @@
 #include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
+#include <vector>
 
 #include "hyperex/core/files.hpp"
 #include "support/test_file.hpp"
 
 namespace hyperex {
+
+inline std::vector<std::string> problems_in(const std::string& err) {
+  std::vector<std::string> found;
+  std::istringstream lines(err);
+  for (std::string line; std::getline(lines, line);)
+    if (line.rfind("hyperex: ", 0) == 0) found.push_back(line);
+  return found;
+}
+
+inline std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder))
+    names.push_back(std::filesystem::relative(entry.path(), folder).string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
 
 class ProgramTest : public testing::Test {
  protected:
@@ -56,6 +75,18 @@ class ProgramTest : public testing::Test {
     for (const auto& remark : remarks)
       if (remark["id"] == id) return remark["text"];
     return "";
+  }
+
+  /// The command is refused in one line that holds `words`, and nothing is changed.
+  void expect_refused(const std::string& arguments, const std::string& words,
+                      const std::string& before = "true") const {
+    const auto names = names_in(in(""));
+    const Outcome outcome = call(arguments, before);
+    EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
+    const auto reported = problems_in(outcome.err);
+    ASSERT_EQ(reported.size(), 1u) << arguments << '\n' << outcome.err;
+    EXPECT_THAT(reported[0], testing::HasSubstr(words)) << arguments;
+    EXPECT_EQ(names_in(in("")), names) << arguments;
   }
 
  private:

@@ -64,21 +64,14 @@ TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {
   std::ofstream(in("mine.html")) << "<html>mine</html>";
   std::ofstream(in("text.csv")) << "no recording\n";
   std::ofstream(in("bad.toml")) << "[[visit]]\ndate = 2026-03-01\nrecording = \"text.csv\"\n";
-  const auto names = names_in(in(""));
   for (const auto& [arguments, words] :
        {std::pair{"visits none.toml", "no such file"}, std::pair{"visits .", "is a folder"},
         std::pair{"visits v.toml --out mine.html", "is there already"},
         std::pair{"visits v.toml --out v.pdf", "expected a name that ends in .html"},
         std::pair{"visits v.toml --table before.csv", "before.csv"},
         std::pair{"visits bad.toml --out v.html", "text.csv"},
-        std::pair{"visits before.csv", "sound TOML"}}) {
-    const Outcome outcome = call(arguments);
-    EXPECT_EQ(outcome.status, 2) << arguments << outcome.err;
-    const auto reported = problems_in(outcome.err);
-    ASSERT_EQ(reported.size(), 1u) << arguments << '\n' << outcome.err;
-    EXPECT_THAT(reported[0], HasSubstr(words)) << arguments;
-    EXPECT_EQ(names_in(in("")), names) << arguments;
-  }
+        std::pair{"visits before.csv", "sound TOML"}})
+    expect_refused(arguments, words);
 }
 
 }  // namespace

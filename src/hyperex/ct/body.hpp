@@ -22,8 +22,9 @@ struct Body {
 /// skin's in 95 % of the slices are couch where they lie together, are at most 30 mm thick and
 /// reach more than 8 mm outside the outline of the rest. 2.5 mm around them are removed with them,
 /// so that a head that rests on a couch has a flat place there. Stacks lower than 60 mm are not
-/// searched. The head is the largest connected piece of what is left. Air inside is what a ball of
-/// 8 mm cannot reach from outside, if it lies at least 6 mm deep or is closed all around. Throws
+/// searched. The head is the largest connected piece of what remains. Air counts as inside the
+/// head where a ball of 8 mm cannot reach it from outside, and where it lies at least 6 mm deep or
+/// is closed all around. Throws
 /// InputError, naming `source`, where nothing is left.
 Body find_body(const Volume& volume, const Thresholds& thresholds, const std::string& source);
 

@@ -95,7 +95,8 @@ void note_values(CtFace& face) {
                     face.body.cavities_cm3));
 }
 
-/// Teeth of their own would need enamel told from bone, and gaps between crowns.
+/// Teeth could be surfaces of their own only if enamel were denser than bone in the scan, and if
+/// voxels were smaller than the gaps between crowns.
 void note_teeth(CtFace& face) {
   const double voxel = face.series.volume.spacing_m().maxCoeff();
   if (voxel > kTeethVoxel_m)

@@ -167,7 +167,7 @@ std::string without_padding(std::string bytes) {
     walk.all();
     bytes.resize(walk.at());
   } catch (const Fault&) {
-    return bytes;  // whose fault is told elsewhere
+    return bytes;  // fault_of_dicom() reports what is wrong
   }
   return bytes;
 }

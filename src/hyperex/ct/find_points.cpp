@@ -66,7 +66,7 @@ Vec3 pronasale_of(const FrontView& view, const TriMesh& skin, double middle_x) {
       best = v;
   if (best < 0) return Vec3::Constant(kNone);
   const Vec3 most = skin.points.row(best).transpose();
-  // At the end of a stack of slices it is the most forward of what is left of a face.
+  // Where the scan ends there, the face goes on outside it, and its nose may too.
   if (most.y() > skin.points.col(1).maxCoeff() - kFromEnds_m ||
       most.y() < skin.points.col(1).minCoeff() + kFromEnds_m)
     return Vec3::Constant(kNone);

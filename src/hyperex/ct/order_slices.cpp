@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/quantile.hpp"
 
 namespace hyperex::ct {
 namespace {
@@ -57,10 +58,7 @@ void check_steps(const std::vector<SlicePlace>& slices, const std::vector<std::s
   std::vector<double> steps(order.size() - 1);
   for (std::size_t i = 0; i + 1 < order.size(); ++i)
     steps[i] = along_mm[order[i + 1]] - along_mm[order[i]];
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + std::ptrdiff_t(sorted.size() / 2),
-                   sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = median(steps);
   const Named named(normal);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::string from = named(slices[order[i]].first_mm),

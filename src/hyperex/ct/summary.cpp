@@ -18,7 +18,7 @@ double rounded(double value, double step = 0.01) {
   return std::round(value / step) * step + 0.0;
 }
 
-/// A number with at most so many digits behind the point that its text is short.
+/// Rounded to `digits` decimal places, and written with no more; null where it is not finite.
 Json number(double value, int digits = 2) {
   if (!std::isfinite(value)) return nullptr;
   return Json::parse(fmt::format("{:.{}f}", rounded(value, std::pow(10, -digits)), digits));

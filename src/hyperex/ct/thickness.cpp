@@ -62,7 +62,7 @@ Region region_of(const Vec3& p, const FoundPoints& points) {
     if (std::abs(across) <= kHalfLips_m && above > kAboveChin_m && p.y() <= n.y() - kBelowNose_m)
       return Region::lips;
   } else if (std::abs(across) <= kHalfLips_m && p.y() <= n.y() - kBelowNose_m) {
-    return Region::none;  // lips and chin are not told apart
+    return Region::none;  // without the chin's point, the border between lips and chin is not known
   }
   return across > 0 ? Region::cheek_left : Region::cheek_right;
 }

@@ -25,9 +25,10 @@ Thresholds find_skin_threshold(const Volume& volume, const std::string& source,
                                std::optional<double> skin_hu = {},
                                std::optional<double> bone_hu = {});
 
-/// Adds the bone's value, found in a volume without couch: half-way between the mean of what is
-/// below it, down to the skin's value, and the mean of what is above it (T. Ridler and S. Calvard,
-/// IEEE Trans. SMC 8, 1978, 630), within 150 to 700 HU.
+/// Sets thresholds.bone_hu by isodata thresholding (T. Ridler and S. Calvard, IEEE Trans. SMC 8,
+/// 1978, 630). The threshold lies half-way between two means: that of the values from skin_hu up to
+/// it, and that of the values above it. It is limited to 150 to 700 HU. The volume must hold no
+/// couch.
 void find_bone_threshold(const Volume& body, Thresholds& thresholds,
                          std::optional<double> bone_hu = {});
 
