@@ -49,6 +49,7 @@ struct Unit {
 inline constexpr Unit kMillimetres{"mm", "_mm", "m", "_m", 1, 1000};
 inline constexpr Unit kSeconds{"s", "_s", "s", "_s"};
 inline constexpr Unit kHertz{"Hz", "_hz", "Hz", "_hz"};
+inline constexpr Unit kDegrees{"deg", "_deg", "deg", "_deg"};
 inline constexpr Unit kMegabytes{"MB", "_mb", "MB", "_mb"};
 inline constexpr Unit kGigabytes{"GB", "_gb", "GB", "_gb"};
 inline constexpr Unit kKilopascals{"kPa", "_kpa", "Pa", "_pa", 1000, 1};

@@ -54,7 +54,7 @@ FaceModel face_model(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const Question& question) {
   FaceModel out{
       FaceResponses(mesh, landmarks, options, points, places, question.ratios, question.loads),
-      simulate::JawKinematics(landmarks),
+      simulate::JawKinematics(landmarks, mesh.bones.get()),
       options.muscles.half,
       {},
       {},

@@ -14,6 +14,8 @@ namespace {
 
 /// Longest straight piece of a line (m).
 constexpr double kStep_m = 0.0015;
+/// An origin is moved to the bone where it lies at most this far from it.
+constexpr double kOffBone_m = 0.010;
 
 class Laying {
  public:
@@ -32,6 +34,10 @@ class Laying {
     std::vector<Vec3> at;
     for (const TemplatePlace& place : muscle.path) at.push_back(on_skin(place_of(place, left)));
     const std::vector<double> depth = depths(muscle.path, at);
+    const auto place = [&](std::size_t i) {
+      const Vec3 p = sunk(at[i], depth[i]);
+      return i == 0 && depth[i] >= 1 ? on_bone(p, muscle.jaw) : p;
+    };
     std::vector<Vec3> line;
     for (std::size_t i = 0; i + 1 < at.size(); ++i) {
       const int pieces = std::max(1, static_cast<int>((at[i + 1] - at[i]).norm() / kStep_m));
@@ -39,8 +45,10 @@ class Laying {
         const double t = static_cast<double>(k) / pieces;
         line.push_back(
             muscle.straight
-                ? Vec3((1 - t) * sunk(at[i], depth[i]) + t * sunk(at[i + 1], depth[i + 1]))
-                : sunk((1 - t) * at[i] + t * at[i + 1], (1 - t) * depth[i] + t * depth[i + 1]));
+                ? Vec3((1 - t) * place(i) + t * place(i + 1))
+                : Vec3(sunk((1 - t) * at[i] + t * at[i + 1],
+                            (1 - t) * depth[i] + t * depth[i + 1]) +
+                       (1 - t) * (place(i) - sunk(at[i], depth[i]))));
       }
     }
     out.line.resize(static_cast<Eigen::Index>(line.size()), 3);
@@ -61,6 +69,14 @@ class Laying {
     return mean + mm * ((left ? 1 : -1) * place.out_mm * frame_.x + place.up_mm * frame_.y);
   }
   Vec3 on_skin(const Vec3& p) const { return skin_.query(p).point; }
+
+  /// The nearest place of the person's own bone, where it is known and near.
+  Vec3 on_bone(const Vec3& p, bool mandible) const {
+    if (!mesh_.bones) return p;
+    const auto near = mesh_.bones->nearest(
+        mandible ? anatomy::Bone::mandible : anatomy::Bone::skull, p, kOffBone_m);
+    return near.bone == anatomy::Bone::none ? p : near.at;
+  }
 
   /// The closest point of the skin, moved towards the inner surface by the share `depth` of the
   /// thickness.

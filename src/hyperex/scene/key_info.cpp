@@ -26,6 +26,7 @@ std::string number_text(const KeyInfo& info, const char* one) {
 
 std::string count_text(std::size_t least, std::size_t most) {
   if (least == 0) return "";
+  if (least == most) return fmt::format("{} ", least);
   if (most >= 1000) return fmt::format("{} or more ", least);
   return fmt::format("{} to {} ", least, most);
 }
@@ -42,7 +43,7 @@ std::string KeyInfo::expected() const {
       return number_text(*this, "a number");
     case Kind::numbers:
       if (most == 2) return number_text(*this, "a number, or a list of two rising ones, each");
-      return "a list of " + count_text(least, most) + number_text(*this, "rising numbers, each");
+      return "a list of " + count_text(least, most) + number_text(*this, least == most ? "numbers, each" : "rising numbers, each");
     case Kind::text:
       return least > 0 ? "a name in quotes" : "a text in quotes";
     case Kind::choice:

@@ -66,7 +66,7 @@ std::map<std::string, json> changes_of(const json& block) {
   for (const auto& [section, value] : block.items()) {
     if (section == "name") continue;
     if (!value.is_object()) {
-      changes[section] = value;
+      changes[section == "bone" ? "surgery.bone" : section] = value;
       continue;
     }
     for (const auto& [key, item] : value.items()) changes[section + "." + key] = item;

@@ -185,6 +185,32 @@ struct TeethOptions {
   }
 };
 
+struct AnatomyOptions {
+  std::filesystem::path ct;               ///< a folder that hyperex ct wrote
+  std::filesystem::path skull, mandible;  ///< surfaces, in the frame of the CT or else of the scan
+  std::optional<io::LengthUnit> unit;     ///< of both; none: mm with a CT, else that of the scan
+  bool any() const { return !ct.empty() || !skull.empty() || !mandible.empty(); }
+
+  static constexpr const char* about =
+      "The person's own bones, on which the layer of tissue ends (docs/ct.md). Where none are given, "
+      "thickness and bones are estimated from landmarks.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(ct),
+             "A folder that hyperex ct wrote: its skull and mandible, laid on the scan with its "
+             "skin, where the scan is not that skin itself.",
+             {.folder_too = true});
+    v.option(HX_MEMBER(skull),
+             "The skull: PLY, OBJ, STL, glTF or GLB, in the coordinates of anatomy.ct if that is "
+             "given, otherwise in those of the scan. It need not be closed.");
+    v.option(HX_MEMBER(mandible), "The mandible, in the same coordinates, with its heads.");
+    v.option(HX_MEMBER(unit),
+             "The unit of length of these two files, where it is not that of the scan (with "
+             "anatomy.ct: mm).",
+             {.none = "scan"});
+  }
+};
+
 struct OutputOptions {
   bool vtu = true, glb = true, report = true;
   int vtu_every = 1;              ///< writes every n-th frame
@@ -307,7 +333,9 @@ struct Scene {
   std::vector<std::string> muscles_without;
   simulate::DriveOptions drive;  ///< its gain has the key motion.gain
   simulate::ContactOptions contact;
+  simulate::SurgeryOptions surgery;
   TeethOptions teeth;
+  AnatomyOptions anatomy;
   simulate::SolverOptions solver;
   /// peak_time_s and still_times_s (up to 12; none: spread_frames()) belong to the section output.
   simulate::TimeOptions time;
@@ -330,6 +358,7 @@ struct Scene {
     v.option(HX_MEMBER(alignment), "");
     v.option(HX_MEMBER(region), "");
     v.option(HX_MEMBER(mesh), "");
+    v.option(HX_MEMBER(anatomy), "");
     v.option(HX_MEMBER(tissue), "");
     v.option(HX_MEMBER(model), "", {.key = "tissue."});
     v.option(HX_MEMBER(support), "");
@@ -344,6 +373,7 @@ struct Scene {
              {.key = "muscles.without"});
     v.option(HX_MEMBER(teeth), "");
     v.option(HX_MEMBER(contact), "");
+    v.option(HX_MEMBER(surgery), "");
     v.option(HX_MEMBER(solver), "");
     v.option(HX_MEMBER(time), "");
     v.option(HX_MEMBER(output), "");

@@ -141,7 +141,7 @@ json get_value(const KeyInfo&, const Source& member) {
   return member.embedded ? std::string("embedded") : member.file.generic_string();
 }
 
-/// Strictly rising numbers. Where at most two are allowed, a single number needs no brackets.
+/// Strictly rising numbers, or a vector of so many. Where at most two are allowed, a single number needs no brackets.
 Complaints set_value(const Given& given, std::vector<double>& member) {
   const KeyInfo& key = given.key;
   json list = given.value;
@@ -153,7 +153,7 @@ Complaints set_value(const Given& given, std::vector<double>& member) {
       const std::string unit = key.unit.name;
       complaints.push_back(
           {element(i), list[i], key.range.expected() + (unit.empty() ? "" : " (" + unit + ")")});
-    } else if (i > 0 && list[i - 1].is_number() &&
+    } else if (key.least != key.most && i > 0 && list[i - 1].is_number() &&
                list[i].get<double>() <= list[i - 1].get<double>()) {
       complaints.push_back({element(i), list[i], "a number above the one before it"});
     }

@@ -22,7 +22,7 @@ bool is_alphanumeric(unsigned char c) {
 
 const std::vector<std::string>& variant_sections() {
   static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles",
-                                                    "region"};
+                                                    "region", "surgery"};
   return sections;
 }
 

@@ -12,6 +12,7 @@
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
+#include "hyperex/session/read_bones.hpp"
 #include "hyperex/session/read_recording.hpp"
 #include "hyperex/session/read_scan.hpp"
 #include "hyperex/session/teeth.hpp"
@@ -135,6 +136,8 @@ Inputs read_inputs(const scene::Scene& scene, Extent extent) {
     problems.attempt([&] { scale_motion(scene, extent, files.steady->motion, in); });
   if (files.scan_read)
     problems.attempt([&] { in.teeth = read_teeth(scene, in.scan.unit, in.landmarks, in.notes); });
+  if (files.scan_read)
+    problems.attempt([&] { in.bones = read_bones(scene, in.scan, in.landmarks, in.notes); });
   problems.throw_if_any();
   if (files.given.empty()) {
     check_unaligned(scene, files.steady, in);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/bones.hpp"
 #include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/core/note.hpp"
 #include "hyperex/io/landmarks.hpp"
@@ -19,6 +20,7 @@ struct Inputs {
   io::Landmarks landmarks;          ///< completed: the 68 iBUG points and the anatomical ones
   std::vector<std::string> placed;  ///< landmarks that were not given
   anatomy::Teeth teeth;             ///< the user's own scans of them; often none
+  std::shared_ptr<const anatomy::Bones> bones;  ///< the person's own; null: none are known
   simulate::AlignedMotion motion;   ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;

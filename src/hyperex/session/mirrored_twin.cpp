@@ -103,6 +103,11 @@ MirroredTwin twin_of(const scene::Scene& scene, const Inputs& inputs,
   options.time.still_times_s.clear();
   for (simulate::MuscleGain& gain : options.muscles.gains)
     gain.muscle = muscles::other_side(gain.muscle);
+  for (simulate::BoneMove& move : options.surgery.bones) {
+    move.move_m[0] = -move.move_m[0];
+    move.turn_deg[1] = -move.turn_deg[1];
+    move.turn_deg[2] = -move.turn_deg[2];
+  }
   if (field) options.tissue.element = mirrored_elements(*field, simulator->mesh(), plane);
   simulator->set_options(std::move(options));
   simulate::SimulationResult result =
@@ -110,6 +115,7 @@ MirroredTwin twin_of(const scene::Scene& scene, const Inputs& inputs,
   return {.why_not = {},
           .landmarks = std::move(result.performance.landmarks),
           .skin_displacement_m = std::move(result.performance.skin_displacement_m),
+          .neutral_displacement_m = std::move(result.performance.neutral_displacement_m),
           .simulator = std::move(simulator)};
 }
 

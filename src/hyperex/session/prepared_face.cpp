@@ -67,9 +67,9 @@ void parts(Archive& archive, T& of) {
 }
 template <class Archive, SameButConst<tissue::TissueMesh> T>
 void parts(Archive& archive, T& of) {
-  // `full` is packed apart.
+  // `full` is packed apart, and `bones` are an input.
   auto& [skin, full, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
-         upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes] = of;
+         upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes, bones] = of;
   archive(skin, scan_vertices, appended, source_triangle, lip_cut, volume, anchors, rim,
           upper_margin, skin_upper_margin, on_border, quality, mean_mm, max_mm, notes);
 }
@@ -110,6 +110,9 @@ std::string mesh_key(const scene::Scene& scene, const Inputs& inputs,
   of(inputs.scan.mesh.points, inputs.scan.mesh.triangles, inputs.scan.file.string(), held);
   for (const auto& [name, at] : inputs.landmarks) of(name, at);
   of(o.element_size_m, o.layers, o.thickness_m, o.cut_lips, o.trim_border_m);
+  if (inputs.bones)
+    for (const TriMesh* bone : {&inputs.bones->skull(), &inputs.bones->mandible()})
+      of(bone->points, bone->triangles);
   for (const tissue::DepthAt& depth : o.depths) of(depth.landmark, depth.depth_m);
   if (!o.depth_per_vertex.empty()) of(read_file(o.depth_per_vertex));
   for (const tissue::DepthRegion& region : o.depth_regions)
@@ -121,7 +124,7 @@ PreparedFace made(const scene::Scene& scene, Inputs& inputs, const std::vector<c
                   const std::function<void()>& skin_known) {
   PreparedFace face;
   tissue::TissueMeshBuilder builder(inputs.scan.mesh, inputs.landmarks, scene.mesh,
-                                    inputs.scan.file.string(), held);
+                                    inputs.scan.file.string(), held, inputs.bones);
   const tissue::TissueMesh& skin = builder.with_skin();
   if (skin.full) inputs.scan = thinned_scan(inputs.scan, *skin.full, skin.skin);
   skin_known();
@@ -238,6 +241,19 @@ std::optional<PreparedFace> prepared_face_from(const std::string& bytes) {
   }
 }
 
+namespace {
+
+/// The mesh with the bones that it was made on, which are not kept with it.
+std::shared_ptr<const tissue::TissueMesh> with_bones(
+    std::shared_ptr<const tissue::TissueMesh> mesh, std::shared_ptr<const anatomy::Bones> bones) {
+  if (!bones) return mesh;
+  auto out = std::make_shared<tissue::TissueMesh>(*mesh);
+  out->bones = std::move(bones);
+  return out;
+}
+
+}  // namespace
+
 PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
                           const std::function<void()>& skin_known) {
   const std::vector<char> held = on_seams(inputs.scan);
@@ -250,6 +266,7 @@ PreparedFace prepare_face(const scene::Scene& scene, Inputs& inputs,
       if (const auto& full = face->mesh->full)
         inputs.scan = thinned_scan(inputs.scan, *full, face->mesh->skin);
       skin_known();
+      face->mesh = with_bones(std::move(face->mesh), inputs.bones);
       return *std::move(face);
     }
   PreparedFace face = made(scene, inputs, held, skin_known);

@@ -16,6 +16,7 @@ simulate::SimulationOptions simulation_options(const scene::Scene& scene, const 
   o.muscles = scene.muscles;
   o.region = scene.region;
   o.contact = scene.contact;
+  o.surgery = scene.surgery;
   o.solver = scene.solver;
   o.time = scene.time;
   return o;

@@ -76,11 +76,52 @@ void check_tissue(const tissue::TissueParameters& uniform, std::vector<InputProb
   }
 }
 
+/// Which cut goes with which part.
+void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& problems) {
+  if (!o.surgery.bones.empty() && o.drive.by == DriveBy::displacement)
+    problems.push_back(wrong("surgery.bone", "bones that move",
+                             "drive.by = muscles or reactions, as driven points stay where they "
+                             "were recorded"));
+  for (std::size_t i = 0; i < o.surgery.bones.size(); ++i) {
+    const BoneMove& move = o.surgery.bones[i];
+    for (const auto& [name, of] : {std::pair{"move_m", &move.move_m}, {"turn_deg", &move.turn_deg}})
+      if (of->size() != 3)
+        problems.push_back(wrong(fmt::format("surgery.bone[{}].{}", i, name).c_str(),
+                                 fmt::format("{} numbers", of->size()),
+                                 "3: to the left, up, forward"));
+    const BoneCut usual = usual_cut(move.part);
+    const bool chin = move.part == BonePart::chin || move.part == BonePart::maxilla;
+    const bool fits = move.cut == BoneCut::standard || move.cut == usual ||
+                      (move.cut == BoneCut::whole && !chin);
+    if (!fits)
+      problems.push_back(
+          wrong(fmt::format("surgery.bone[{}].cut", i).c_str(), std::string(word_of(move.cut)),
+                fmt::format("standard or {}{} for the {}", word_of(usual),
+                            chin || usual == BoneCut::whole ? "" : ", or whole,",
+                            word_of(move.part))));
+  }
+}
+
 }  // namespace
+
+BoneCut usual_cut(BonePart part) {
+  switch (part) {
+    case BonePart::maxilla:
+      return BoneCut::le_fort_1;
+    case BonePart::mandible:
+      return BoneCut::bsso;
+    case BonePart::chin:
+      return BoneCut::genioplasty;
+    case BonePart::skull:
+      break;
+  }
+  return BoneCut::whole;
+}
 
 void check(const SimulationOptions& o) {
   std::vector<InputProblem> problems = out_of_bounds(o);
   check_tissue(o.tissue.uniform, problems);
+  check_surgery(o, problems);
   if (o.drive.by != DriveBy::muscles && (o.muscles.mirrored || !o.muscles.gains.empty()))
     problems.push_back(wrong("muscles", "gains or mirrored", "drive.by = muscles"));
   if (o.solver.newmark_gamma > 2 * o.solver.newmark_beta)

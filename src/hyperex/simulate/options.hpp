@@ -126,6 +126,77 @@ struct SupportOptions {
   }
 };
 
+enum class BonePart { skull, maxilla, mandible, chin };
+constexpr auto words_of(BonePart) {
+  return std::array{Word{"skull", BonePart::skull}, Word{"maxilla", BonePart::maxilla},
+                    Word{"mandible", BonePart::mandible}, Word{"chin", BonePart::chin}};
+}
+
+enum class BoneCut {
+  standard,  ///< le_fort_1, bsso or genioplasty, as the part has it
+  whole,     ///< no cut: the whole skull or mandible
+  le_fort_1,
+  bsso,
+  genioplasty
+};
+constexpr auto words_of(BoneCut) {
+  return std::array{Word{"standard", BoneCut::standard}, Word{"whole", BoneCut::whole},
+                    Word{"le_fort_1", BoneCut::le_fort_1}, Word{"bsso", BoneCut::bsso},
+                    Word{"genioplasty", BoneCut::genioplasty}};
+}
+
+/// A segment of bone that surgery moves (simulate/drive/osteotomy.hpp).
+struct BoneMove {
+  BonePart part = BonePart::mandible;
+  BoneCut cut = BoneCut::standard;
+  double cut_shift_m = 0;  ///< of the plane, from its standard place
+  /// Along the axes of the face: to the subject's left, up, forward.
+  std::vector<double> move_m = {0, 0, 0};
+  /// About these axes, in this order.
+  std::vector<double> turn_deg = {0, 0, 0};
+  bool operator==(const BoneMove&) const = default;
+
+  static constexpr const char* about = "A segment of bone that surgery moves.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(part),
+             "The bone: the maxilla is the part of the skull below a cut, the chin that of the "
+             "mandible.",
+             {.required = true});
+    v.option(HX_MEMBER(cut),
+             "Where it is cut off: as is usual for the part (maxilla: le_fort_1; mandible: bsso; "
+             "chin: genioplasty; skull: whole), or whole, without a cut.");
+    v.option(HX_MEMBER(cut_shift_m),
+             "How far the plane of the cut lies from its standard place: upwards, or forward for "
+             "bsso.",
+             {.unit = kMillimetres, .bounds = {-0.03, 0.03}});
+    v.option(HX_MEMBER(move_m),
+             "The movement along the axes of the face: to the subject's left, up, forward.",
+             {.unit = kMillimetres, .bounds = {-0.03, 0.03}, .least = 3, .most = 3});
+    v.option(HX_MEMBER(turn_deg),
+             "Turns about these axes through the segment's centre (docs/surgery.md), in this "
+             "order. Positive about the first: the front turns down; about the second: it turns to "
+             "the left; about the third: the left side turns up.",
+             {.unit = kDegrees, .bounds = {-30, 30}, .least = 3, .most = 3});
+  }
+};
+
+/// What surgery changes before the recorded forces act.
+struct SurgeryOptions {
+  std::vector<BoneMove> bones;  ///< applied in turn
+  bool operator==(const SurgeryOptions&) const = default;
+
+  static constexpr const char* about =
+      "Segments of bone that are moved before the expression begins. Forces must drive the face.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    v.option(HX_MEMBER(bones),
+             "Segments of bone that are moved, one after the other: the mandible before the chin "
+             "on it. The face at rest follows them, then the recorded forces act.",
+             {.key = "bone"});
+  }
+};
+
 enum class DriveBy {
   displacement,  ///< patches of skin are carried to where the points are recorded
   muscles,       ///< forces: muscles, the jaw, and the residual at the points
@@ -440,6 +511,7 @@ struct SimulationOptions {
   RegionOptions region;
   SolverOptions solver;
   ContactOptions contact;
+  SurgeryOptions surgery;
   TimeOptions time;
   bool operator==(const SimulationOptions&) const = default;
 
@@ -454,9 +526,13 @@ struct SimulationOptions {
     v.option(HX_MEMBER(region), RegionOptions::about);
     v.option(HX_MEMBER(solver), SolverOptions::about);
     v.option(HX_MEMBER(contact), ContactOptions::about);
+    v.option(HX_MEMBER(surgery), SurgeryOptions::about);
     v.option(HX_MEMBER(time), TimeOptions::about);
   }
 };
+
+/// The cut that BoneCut::standard means.
+BoneCut usual_cut(BonePart part);
 
 /// Throws InputError naming each option that is out of its bounds, and each conflict.
 void check(const SimulationOptions& options);

@@ -36,6 +36,9 @@ struct Performance {
   std::vector<int> source_triangle;  ///< per skin triangle: the scan's triangle that it is part of
   std::vector<double> frame_time_s;
   std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
+  /// Where surgery moved bones: displacement of the skin at rest afterwards (|skin_rest| x 3); all
+  /// displacements contain it. Otherwise no rows.
+  PointsF neutral_displacement_m;
   int peak_frame = 0;  ///< frame with the greatest mean displacement of the driven points
   /// The jaw's pose in each frame: its point x at rest is at jaw_now_from_rest[f] * x.
   std::vector<Eigen::Isometry3d> jaw_now_from_rest;

@@ -55,7 +55,11 @@ inline nlohmann::json other_value(const Key& key) {
     return {{{"landmark", "cheek"}, {"side", "R"}, {"young_kpa", 12.5}}};
   nlohmann::json row;
   for (const KeyInfo& column : key.columns)
-    if (column.kind == Kind::number)
+    if (column.kind == Kind::choice)
+      row[column.name] = column.choices.front();
+    else if (column.kind == Kind::numbers)
+      row[column.name] = {column.range.least, 0.125, column.range.most};
+    else if (column.kind == Kind::number)
       row[column.name] = (column.range.least + column.range.most) / 2;
     else
       row[column.name] = column.kind == Kind::path ? "face.ply" : "chin";

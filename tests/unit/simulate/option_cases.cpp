@@ -262,6 +262,14 @@ const std::vector<OptionCase>& contact_cases() {
   return cases;
 }
 
+const std::vector<OptionCase>& surgery_cases() {
+  static const std::vector<OptionCase> cases = {
+      {"surgery.bones", {"surgery"}, [](Options& o) {
+         o.surgery.bones = {{.part = BonePart::chin, .move_m = {0, 0, 0.005}}};
+       }}};
+  return cases;
+}
+
 const std::vector<OptionCase>& time_cases() {
   static const std::vector<OptionCase> named = {
       {"time.step_s", {"time", "time.step_s"}, [](Options& o) { o.time.step_s = 0.005; }},

@@ -34,6 +34,7 @@ const std::vector<OptionCase>& region_cases();
 const std::vector<OptionCase>& finite_solver_cases();
 const std::vector<OptionCase>& solver_cases();
 const std::vector<OptionCase>& contact_cases();
+const std::vector<OptionCase>& surgery_cases();
 const std::vector<OptionCase>& time_cases();
 
 }  // namespace hyperex::simulate::test

@@ -154,7 +154,8 @@ TEST_F(SimulatorStagesOfAFace, WhereMusclesDriveTheOtherSectionsReachTheirStages
   options_.drive.by = DriveBy::muscles;
   expect_all_as_declared({tissue_cases()[0], support_cases()[0],
                           case_of(drive_cases(), "drive.gain"), drive_cases()[2], time_cases()[0],
-                          time_cases()[1], solver_cases()[1], solver_cases()[2]});
+                          time_cases()[1], solver_cases()[1], solver_cases()[2],
+                          surgery_cases()[0]});
 }
 
 TEST_F(SimulatorStagesOfAFace, GainsReachWhatTheyAdd) {
@@ -287,7 +288,8 @@ TEST(SimulatorStages, EveryOptionIsAnInputOfSomeStage) {
   const SimulatorStages stages;
   for (const auto* cases :
        {&model_cases(), &tissue_cases(), &support_cases(), &drive_cases(), &region_cases(),
-        &solver_cases(), &finite_solver_cases(), &contact_cases(), &time_cases(), &muscle_cases()})
+        &solver_cases(), &finite_solver_cases(), &contact_cases(), &time_cases(), &muscle_cases(),
+        &surgery_cases()})
     for (const OptionCase& option : *cases) {
       Options before, now;
       // Muscles have an effect where they drive.
@@ -337,6 +339,7 @@ TEST(SimulatorStages, TheCasesNameEveryOption) {
             member_count<SolverOptions>());
   EXPECT_EQ(named({&contact_cases()}, "contact"), member_count<ContactOptions>());
   EXPECT_EQ(named({&time_cases()}, "time"), member_count<TimeOptions>());
+  EXPECT_EQ(named({&surgery_cases()}, "surgery"), member_count<SurgeryOptions>());
 }
 
 /// The table in simulator.hpp is the declaration in words.

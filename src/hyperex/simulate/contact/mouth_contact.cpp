@@ -168,11 +168,11 @@ std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, c
       for (std::size_t k = 0; k < 3; ++k)
         add_row(upper_[std::size_t(pair.on[k])], -pair.weight[Index(k)] * pair.normal, row);
     }
-  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
   int place = 0;
   for (std::size_t s = 0; s < sides_.size(); ++s) {
     const ObstaclePlaces& places = *sides_[s].places;
-    const Eigen::Isometry3d& pose = places.obstacle().with_jaw ? frame.jaw_now_from_rest : still;
+    const Eigen::Isometry3d pose =
+        places.obstacle().now_from_rest(frame.jaw_now_from_rest, frame.upper_teeth_now_from_rest);
     for (Index i = 0; i < places.count(); ++i, ++place) {
       const SkinCarrier& carrier = sides_[s].carriers[std::size_t(i)];
       if (carrier.empty()) continue;

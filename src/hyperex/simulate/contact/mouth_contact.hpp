@@ -22,6 +22,8 @@ struct FreeFrame {
   const PointsF& skin;                  ///< displacement of the whole skin, m
   const std::vector<Points>& at_sides;  ///< displacement of the places of each ObstacleSide, m
   Eigen::Isometry3d jaw_now_from_rest;
+  /// Of the upper teeth, where surgery moved them.
+  Eigen::Isometry3d upper_teeth_now_from_rest = Eigen::Isometry3d::Identity();
 };
 
 /// Keeps the lips of a moving face from passing through each other, and its tissue from entering

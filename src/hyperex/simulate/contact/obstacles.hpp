@@ -20,6 +20,12 @@ struct Obstacle {
   } kind = Kind::teeth;
   std::shared_ptr<const SignedDistance> shape;  ///< at rest: scan frame, m
   bool with_jaw = false;                        ///< it moves with the mandible
+  /// The pose of the obstacle, of those of the lower and the upper teeth. Eyes rest.
+  Eigen::Isometry3d now_from_rest(const Eigen::Isometry3d& lower,
+                                  const Eigen::Isometry3d& upper) const {
+    if (kind == Kind::eye) return Eigen::Isometry3d::Identity();
+    return with_jaw ? lower : upper;
+  }
 };
 
 /// The teeth of both jaws, as far as they are given.

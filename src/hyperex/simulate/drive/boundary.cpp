@@ -119,7 +119,7 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
                    const SupportOptions& support)
     : mesh_(mesh),
       rest_(motion.rest),
-      jaw_(landmarks),
+      jaw_(landmarks, mesh.bones.get()),
       driven_(std::move(driven)),
       jaw_rows_(jaw_rows(motion, driven_->rows, support)) {
   if (jaw_rows_.empty() && support.mandible == Mandible::follow)
@@ -134,7 +134,7 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
 
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const SupportOptions& support)
-    : mesh_(mesh), jaw_(landmarks), driven_(std::make_shared<const DrivenSkin>()) {
+    : mesh_(mesh), jaw_(landmarks, mesh.bones.get()), driven_(std::make_shared<const DrivenSkin>()) {
   hold_border(landmarks, support);
   set_bones(landmarks, support);
   number_unknowns();
@@ -155,7 +155,8 @@ void Boundary::hold_border(const io::Landmarks& landmarks, const SupportOptions&
   for (int v = 0; v < mesh_.volume.surface_nodes(); ++v)
     if (mesh_.on_border[v] && !moves_with_jaw[v])
       for (int level = 0; level <= mesh_.volume.layers; ++level)
-        fixed_nodes_.push_back(static_cast<int>(level * mesh_.volume.surface_nodes()) + v);
+        fixed_.push_back(
+            {static_cast<int>(level * mesh_.volume.surface_nodes()) + v, Bone::none});
 }
 
 void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& support) {
@@ -166,6 +167,7 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   const std::vector<EdgeOfJaw> edge =
       support.throat_pa_per_m > 0 ? edge_of_jaw(mesh_, landmarks) : std::vector<EdgeOfJaw>();
   const bool follows_field = driven_->field_weights.rows() > 0;
+  const std::vector<char> backed = backed_by_bone(mesh_);
   const auto layered = [&](int v, const BoneLayer& layer) {
     const Vec3 n = normals.row(v);
     const Eigen::Matrix3d across = n * n.transpose();
@@ -176,17 +178,21 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   for (int v = 0; v < static_cast<int>(bones.size()); ++v) {
     const int node = mesh_.volume.inner_node(v);
     if (support.field_pa_per_m > 0 &&
-        (follows_field ? bones[v] != Bone::mandible : bones[v] == Bone::none))
+        (follows_field ? bones[v] != Bone::mandible : bones[v] == Bone::none && backed[v]))
       springs_.push_back({node, areas[v] * support.field_pa_per_m * Eigen::Matrix3d::Identity(),
-                          follows_field ? Spring::field : Spring::rest, v});
+                          Holder::between, follows_field ? Spring::field : Spring::rest, v});
     if (bones[v] == Bone::none && support.teeth_layer.across_pa_per_m > 0 &&
         to_lips[v] < support.teeth_reach_m)
+    {
+      const bool upper = mesh_.upper_margin[v] > 0;
       springs_.push_back({node, layered(v, support.teeth_layer),
-                          mesh_.upper_margin[v] > 0 ? Spring::rest : Spring::jaw, v,
+                          upper ? Holder::upper_teeth : Holder::lower_teeth,
+                          upper ? Spring::rest : Spring::jaw, v,
                           mesh_.volume.nodes.row(node).transpose()});
+    }
     if (bones[v] == Bone::none && !edge.empty() && edge[v].below)
       springs_.push_back({node, areas[v] * support.throat_pa_per_m * Eigen::Matrix3d::Identity(),
-                          Spring::jaw, v, edge[v].nearest,
+                          Holder::throat, Spring::jaw, v, edge[v].nearest,
                           std::exp(-std::pow(edge[v].distance_m / support.throat_reach_m, 2))});
     if (bones[v] == Bone::none) continue;
     const bool skull = bones[v] == Bone::skull;
@@ -194,18 +200,20 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
     const bool follows = !skull && support.mandible == Mandible::follow;
     ++(skull ? skull_count_ : mandible_count_);
     if (skull ? support.skull == Hold::held : support.mandible == Mandible::held) {
-      fixed_nodes_.push_back(node);
+      fixed_.push_back({node, bones[v]});
       continue;
     }
     const BoneLayer& layer = skull ? support.skull_layer : support.mandible_layer;
-    springs_.push_back({node, layered(v, layer), follows ? Spring::jaw : Spring::rest, v,
+    springs_.push_back({node, layered(v, layer), skull ? Holder::skull : Holder::mandible,
+                        follows ? Spring::jaw : Spring::rest, v,
                         mesh_.volume.nodes.row(node).transpose()});
   }
 }
 
 void Boundary::number_unknowns() {
   std::map<int, std::pair<int, int>> nodes;
-  for (int node : fixed_nodes_) nodes[node] = {fixed, 0};
+  for (std::size_t i = 0; i < fixed_.size(); ++i)
+    nodes[fixed_[i].node] = {fixed, static_cast<int>(i)};
   for (std::size_t j = 0; j < driven_->nodes.size(); ++j)
     nodes[driven_->nodes[j]] = {driven, static_cast<int>(j)};
   for (const auto& [node, source] : nodes) {
@@ -215,10 +223,69 @@ void Boundary::number_unknowns() {
 }
 
 std::vector<int> Boundary::held_nodes() const {
-  std::vector<int> held = fixed_nodes_;
+  std::vector<int> held;
+  for (const Fixed& f : fixed_) held.push_back(f.node);
   for (const Spring& s : springs_)
     if (s.target == Spring::rest) held.push_back(s.node);
   return held;
+}
+
+Boundary Boundary::with_moved_bones(const io::Landmarks& landmarks,
+                                    const Osteotomies& cuts) const {
+  Boundary out = *this;
+  const Points& rest = mesh_.volume.nodes;
+  const BonesAbout about(cuts, bones_under(mesh_, landmarks),
+                         rest.bottomRows(mesh_.volume.surface_nodes()));
+  const auto by = [](const Eigen::Isometry3d& motion, const Vec3& at) -> Vec3 {
+    return motion * at - at;
+  };
+  const auto cranium = [&](const Vec3& at) { return by(cuts.cranium(), at); };
+  for (Fixed& f : out.fixed_) {
+    const Vec3 at = rest.row(f.node);
+    f.base = f.bone == Bone::none ? cranium(at) : by(cuts.motion(f.bone, at), at);
+  }
+  for (Spring& s : out.springs_) {
+    const Vec3 at = rest.row(s.node);
+    Vec3 of_jaw = Vec3::Zero();  // of the place that follows the jaw
+    switch (s.holder) {
+      case Holder::skull:
+        s.base = by(cuts.motion(Bone::skull, at), at);
+        break;
+      case Holder::mandible:
+        s.base = of_jaw = by(cuts.motion(Bone::mandible, at), at);
+        break;
+      case Holder::upper_teeth:
+        s.base = by(cuts.upper_teeth(), at);
+        break;
+      case Holder::lower_teeth:
+        s.base = of_jaw = by(cuts.lower_teeth(), at);
+        break;
+      case Holder::throat:
+        // The base lies between the edge of the jaw and the neck, which goes with the skull.
+        of_jaw = by(cuts.motion(Bone::mandible, s.at), s.at);
+        s.base = s.share * by(cuts.motion(Bone::mandible, s.at), at) + (1 - s.share) * cranium(at);
+        break;
+      case Holder::between:
+        s.base = about.displacement(at);
+        break;
+    }
+    s.at += of_jaw;
+  }
+  return out;
+}
+
+Eigen::VectorXd Boundary::prescribed_by_bones() const {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(Eigen::Index(prescribed_.size()));
+  for (std::size_t i = 0; i < source_.size(); ++i)
+    if (source_[i].first == fixed)
+      values.segment<3>(3 * Eigen::Index(i)) = fixed_[std::size_t(source_[i].second)].base;
+  return values;
+}
+
+Eigen::VectorXd Boundary::forces_of_bones() const {
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * mesh_.volume.nodes.rows());
+  for (const Spring& s : springs_) force.segment<3>(3 * s.node) += s.stiffness * s.base;
+  return force;
 }
 
 void Boundary::add_springs(fem::SparseMatrix& stiffness) const {
@@ -252,6 +319,16 @@ Eigen::VectorXd Boundary::forces_of_jaw(const JawMotion& jaw) const {
     if (s.target == Spring::jaw)
       force.segment<3>(3 * s.node) += s.stiffness * (s.share * (jaw.turn * s.at + jaw.slide));
   return force;
+}
+
+Eigen::MatrixXd Boundary::unit_forces_of_jaw() const {
+  Eigen::MatrixXd out(3 * mesh_.volume.nodes.rows(), 12);
+  for (int k = 0; k < 12; ++k) {
+    JawMotion unit;
+    (k < 9 ? unit.turn.data()[k] : unit.slide[k - 9]) = 1;
+    out.col(k) = forces_of_jaw(unit);
+  }
+  return out;
 }
 
 void Boundary::prescribe(const Points& point_displacement, const JawMotion& jaw,

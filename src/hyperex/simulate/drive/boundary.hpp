@@ -6,6 +6,7 @@
 #include "hyperex/fem/form/system.hpp"
 #include "hyperex/simulate/drive/drive.hpp"
 #include "hyperex/simulate/drive/jaw.hpp"
+#include "hyperex/simulate/drive/osteotomy.hpp"
 #include "hyperex/simulate/drive/skin_measured.hpp"
 #include "hyperex/simulate/options.hpp"
 
@@ -53,6 +54,15 @@ class Boundary {
   /// The same springs and held nodes without the driven ones.
   Boundary released() const;
 
+  /// The same with segments of bone moved. Springs, held nodes and the place of the jaw go with
+  /// them, and the tissue over neither bone is moved as bones on all sides of it, by the squares of
+  /// their inverse distances. Where all bones have the same rigid motion, all support has it.
+  Boundary with_moved_bones(const io::Landmarks& landmarks, const Osteotomies& cuts) const;
+  /// What moved bones prescribe (m, as prescribed()) and the forces of their springs on all unknowns
+  /// (N), where the tissue is at rest otherwise.
+  Eigen::VectorXd prescribed_by_bones() const;
+  Eigen::VectorXd forces_of_bones() const;
+
   /// Adds the springs' stiffness. Their blocks lie within the pattern of K.
   void add_springs(fem::SparseMatrix& stiffness) const;
   /// Whether add_springs() adds the same to any matrix.
@@ -69,6 +79,9 @@ class Boundary {
   JawMotion follow(const Points& point_displacement);
   /// Forces (N, all unknowns) of the springs that follow the jaw. They are linear in its motion.
   Eigen::VectorXd forces_of_jaw(const JawMotion& jaw) const;
+  /// Forces of unit motions of the jaw (3 |nodes| x 12): one column per entry of its turn (column by
+  /// column) and of its slide.
+  Eigen::MatrixXd unit_forces_of_jaw() const;
   double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
 
   /// Sets the values of the prescribed unknowns (m) and the forces on all unknowns (N). Both are
@@ -89,13 +102,21 @@ class Boundary {
   const std::vector<int>& driven_rows() const { return driven_->rows; }
 
  private:
+  enum class Holder : char { skull, mandible, upper_teeth, lower_teeth, throat, between };
   struct Spring {
     int node;
     Eigen::Matrix3d stiffness;  // N/m
+    Holder holder;
     enum Target { rest, jaw, field } target;
     int row;                 // of the field
     Vec3 at = Vec3::Zero();  // of the jaw: the place on it that the spring follows
     double share = 1;        // of that place's displacement
+    Vec3 base = Vec3::Zero();  // displacement of what holds it, by moved bones
+  };
+  struct Fixed {
+    int node;
+    Bone bone;  // none: held at the scan's border, with the skull
+    Vec3 base = Vec3::Zero();
   };
   void hold_border(const io::Landmarks& landmarks, const SupportOptions& support);
   void set_bones(const io::Landmarks& landmarks, const SupportOptions& support);
@@ -105,10 +126,12 @@ class Boundary {
   const Points rest_;  // of the motion's points
   Jaw jaw_;
   std::shared_ptr<const DrivenSkin> driven_;
-  std::vector<int> jaw_rows_, fixed_nodes_;
+  std::vector<int> jaw_rows_;
+  std::vector<Fixed> fixed_;
   std::vector<Spring> springs_;
   std::vector<int> prescribed_;
-  std::vector<std::pair<int, int>> source_;  // per prescribed node: kind (0 fixed, 1 driven), row
+  /// Per prescribed node: kind (0 fixed, 1 driven), and its place in fixed_ or row of the driven.
+  std::vector<std::pair<int, int>> source_;
   int skull_count_ = 0, mandible_count_ = 0;
 };
 

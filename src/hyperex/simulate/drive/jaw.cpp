@@ -13,10 +13,16 @@ namespace {
 constexpr double slide_weight = 0.3, turn_weight_per_rad = 20;
 }  // namespace
 
-JawHinge::JawHinge(const io::Landmarks& landmarks, double forward_m)
+JawHinge::JawHinge(const io::Landmarks& landmarks, const anatomy::Bones* bones)
     : frame(face::face_frame(landmarks)),
-      centre(0.5 * (landmarks.at(face::ibug(1)) + landmarks.at(face::ibug(15))) +
-             forward_m * frame.z) {}
+      centre(0.5 * (landmarks.at(face::ibug(1)) + landmarks.at(face::ibug(15)))) {
+  if (!bones || !bones->condyles()) return;
+  const anatomy::Condyles& condyles = *bones->condyles();
+  centre = 0.5 * (condyles[0] + condyles[1]);
+  frame.x = (condyles[0] - condyles[1]).normalized();
+  frame.y = (frame.y - frame.y.dot(frame.x) * frame.x).normalized();
+  frame.z = frame.x.cross(frame.y);
+}
 
 Eigen::Matrix3d JawHinge::turned(double opening, double turn, double tilt) const {
   return (Eigen::AngleAxisd(opening, frame.x) * Eigen::AngleAxisd(turn, frame.y) *
@@ -24,8 +30,7 @@ Eigen::Matrix3d JawHinge::turned(double opening, double turn, double tilt) const
       .toRotationMatrix();
 }
 
-Jaw::Jaw(const io::Landmarks& landmarks, double condyle_forward_m)
-    : hinge_(landmarks, condyle_forward_m) {}
+Jaw::Jaw(const io::Landmarks& landmarks, const anatomy::Bones* bones) : hinge_(landmarks, bones) {}
 
 Eigen::Isometry3d Jaw::transform(const Parameters& p) const {
   Eigen::Isometry3d t = Eigen::Isometry3d::Identity();

@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 
+#include "hyperex/anatomy/bones.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
@@ -13,8 +14,9 @@ struct JawHinge {
   face::FaceFrame frame;
   Vec3 centre;  ///< between the condyles
 
-  /// The condyles lie between ibug68_1 and ibug68_15, `forward_m` in front of them.
-  explicit JawHinge(const io::Landmarks& landmarks, double forward_m = 0);
+  /// Through the condyles of `bones` where they are known (null: no bones). Otherwise the axis is
+  /// transverse, and its centre the middle between ibug68_1 and ibug68_15.
+  explicit JawHinge(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr);
   /// The rotation by an opening, a turn to the side and a tilt, rad.
   Eigen::Matrix3d turned(double opening, double turn, double tilt = 0) const;
 };
@@ -41,9 +43,7 @@ Eigen::MatrixXd central_differences(const Function& f, const Vector& at) {
 /// and opening is not.
 class Jaw {
  public:
-  /// The condyles are taken 15 % inwards of the ibug68_1 and ibug68_15 points, at their height and
-  /// `condyle_forward_m` in front of them.
-  explicit Jaw(const io::Landmarks& landmarks, double condyle_forward_m = 0);
+  explicit Jaw(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr);
 
   /// The displacement that carries `rest` (n x 3, m) nearest to `rest + displacement`. The search
   /// starts from the last answer.

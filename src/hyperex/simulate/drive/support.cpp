@@ -14,6 +14,7 @@ using face::ibug;
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
 constexpr double border_free_m = 0.035;
+constexpr double attached_m = 0.0015, backed_m = 0.005, ramus_m = 0.035;
 constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
@@ -24,6 +25,16 @@ class BoneMap {
     nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
     ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
     lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
+    condyles_z_ = 0.5 * (jaw_line_[1] + jaw_line_[15]).z();
+  }
+
+  /// Whether the tissue of a node is attached to the bone at its inner end.
+  bool attached(Bone bone, const Vec3& inner, const Vec3& outer) const {
+    const Vec3 q = frame_.local(inner), p = frame_.local(outer);
+    if (bone == Bone::skull)
+      return q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
+    return (p.y() < lower_lip_ - jaw_below_lip_m || q.z() < condyles_z_ + ramus_m) &&
+           distance_to_lips(p) >= jaw_off_lips_m;
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
@@ -86,7 +97,7 @@ class BoneMap {
   face::FaceFrame frame_;
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
-  double lower_lip_ = 0;
+  double lower_lip_ = 0, condyles_z_ = 0;
 };
 
 }  // namespace
@@ -95,9 +106,26 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   const BoneMap map(landmarks);
   const auto& volume = mesh.volume;
   std::vector<Bone> bones(volume.surface_nodes());
-  for (int v = 0; v < volume.surface_nodes(); ++v)
-    bones[v] = map.under(volume.nodes.row(volume.inner_node(v)), volume.nodes.row(v));
+  for (int v = 0; v < volume.surface_nodes(); ++v) {
+    const Vec3 inner = volume.nodes.row(volume.inner_node(v)), outer = volume.nodes.row(v);
+    if (!mesh.bones) {
+      bones[v] = map.under(inner, outer);
+      continue;
+    }
+    const Bone bone = mesh.bones->nearest(inner, attached_m).bone;
+    if (bone != Bone::none && map.attached(bone, inner, outer)) bones[v] = bone;
+  }
   return bones;
+}
+
+std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh) {
+  const auto& volume = mesh.volume;
+  std::vector<char> out(volume.surface_nodes(), 1);
+  if (mesh.bones)
+    for (int v = 0; v < volume.surface_nodes(); ++v)
+      out[v] =
+          mesh.bones->nearest(volume.nodes.row(volume.inner_node(v)), backed_m).bone != Bone::none;
+  return out;
 }
 
 std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {

@@ -6,10 +6,18 @@
 
 namespace hyperex::simulate {
 
-/// The bone under a node of the inner surface.
-enum class Bone : char { none, skull, mandible };
+using anatomy::Bone;
 
-/// The bone under each inner node, estimated from landmarks:
+/// The bone to which the tissue is attached under each inner node.
+///
+/// Where TissueMesh::bones are known, it is the bone at most 1.5 mm from the node, save where tissue
+/// slides freely over bone and teeth:
+///  * over the skull below the line from the base of the nose back to below the ears;
+///  * over the mandible less than 16 mm below the lower lip's edge, in front of the ramus (more than
+///    35 mm in front of the estimated condyles);
+///  * within 8 mm (skull) or 6 mm (mandible) of the lips.
+///
+/// Otherwise it is estimated from landmarks:
 ///  * skull: above the line from the base of the nose (ibug68_33) back to below the ears (mean of
 ///    ibug68_2 and 14), save within 8 mm of the lips;
 ///  * mandible: within 15 mm of the line of the jaw over the chin (ibug68_5 to 11), from 10 mm
@@ -17,6 +25,10 @@ enum class Bone : char { none, skull, mandible };
 ///    its edge up to 16 mm below the lower lip's edge (ibug68_57), save within 6 mm of the lips;
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
+/// One flag per inner node: whether bone lies within 5 mm of it. Elsewhere the layer lies over a
+/// cavity. All true where no bones are known.
+std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh);
 
 /// Distance of each outer node to the nearest of ibug68_48 to 67, m.
 std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,

@@ -70,7 +70,7 @@ Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& mot
   return out;
 }
 
-MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const Driven& driven,
+MuscleFit fit_of(const JawKinematics& jaw, const MuscleModel& model, const Driven& driven,
                  const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
   std::vector<char> tone, ring;
@@ -82,7 +82,7 @@ MuscleFit fit_of(const io::Landmarks& landmarks, const MuscleModel& model, const
   return MuscleFit(
       {at_places(driven.carrier, model.response()), at_places(driven.carrier, model.jaw_response()),
        at_places(driven.carrier, model.wide_response()), options.half},
-      JawKinematics(landmarks), muscle_prior(model.lines(), options), sigma, std::move(tone),
+      jaw, muscle_prior(model.lines(), options), sigma, std::move(tone),
       std::move(ring));
 }
 
@@ -263,7 +263,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleFit fit = fit_of(landmarks, model, driven, options.muscles);
+  MuscleFit fit = fit_of(JawKinematics(landmarks, mesh.bones.get()), model, driven,
+                         options.muscles);
   const JawKinematics jaw(landmarks);
 
   HeldLoad load;

@@ -49,12 +49,7 @@ MuscleModel::MuscleModel(const tissue::TissueMesh& mesh, const io::Landmarks& la
     scale_to_unit(options.unit_m, between, wide_force_, wide_response_);
   }
   add_fold(muscles, landmarks, options.fold, between);
-  jaw_force_.resize(unknowns, 12);
-  for (int k = 0; k < 12; ++k) {
-    Boundary::JawMotion unit;
-    (k < 9 ? unit.turn.data()[k] : unit.slide[k - 9]) = 1;
-    jaw_force_.col(k) = boundary_.forces_of_jaw(unit);
-  }
+  jaw_force_ = boundary_.unit_forces_of_jaw();
   jaw_response_ = solve(jaw_force_, between);
 }
 

@@ -19,12 +19,14 @@ double ContactDepths::most() const {
 
 ContactFrames::ContactFrames(const LipSurfaces* lips, const Places& places,
                              const std::vector<FrameTime>& frame_times, const Solution& solution,
-                             const SimulationResult& result)
+                             const SimulationResult& result,
+                             const Eigen::Isometry3d& upper_teeth_now_from_rest)
     : lips_(lips && !lips->empty() ? lips : nullptr),
       places_(places),
       frame_times_(frame_times),
       solution_(solution),
       result_(result),
+      upper_teeth_(upper_teeth_now_from_rest),
       at_sides_(frame_times.size()),
       depths_(frame_times.size()) {}
 
@@ -45,9 +47,8 @@ const Eigen::Isometry3d& ContactFrames::jaw(std::size_t i) const {
                        : result_.performance.jaw_now_from_rest[at.index()];
 }
 
-const Eigen::Isometry3d& ContactFrames::pose(const ObstaclePlaces& side, std::size_t i) const {
-  static const Eigen::Isometry3d skull = Eigen::Isometry3d::Identity();
-  return side.obstacle().with_jaw ? jaw(i) : skull;
+Eigen::Isometry3d ContactFrames::pose(const ObstaclePlaces& side, std::size_t i) const {
+  return side.obstacle().now_from_rest(jaw(i), upper_teeth_);
 }
 
 ContactDepths ContactFrames::depths(std::size_t i, const PointsF& skin,

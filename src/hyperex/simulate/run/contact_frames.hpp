@@ -26,13 +26,16 @@ class ContactFrames {
   /// Everything must outlive this. `lips`: null where they may pass through each other.
   ContactFrames(const LipSurfaces* lips, const Places& places,
                 const std::vector<FrameTime>& frame_times, const Solution& solution,
-                const SimulationResult& result);
+                const SimulationResult& result,
+                const Eigen::Isometry3d& upper_teeth_now_from_rest);
 
   std::size_t count() const { return frame_times_.size(); }
   const FrameTime& time_of(std::size_t i) const { return frame_times_[i]; }
   const PointsF& skin(std::size_t i) const;
   Eigen::Map<const Points> nodes(std::size_t i) const;
   const Eigen::Isometry3d& jaw(std::size_t i) const;
+  /// Where surgery put the upper teeth.
+  const Eigen::Isometry3d& upper_teeth() const { return upper_teeth_; }
   /// Displacements of the places of each obstacle, as last measured.
   const std::vector<Points>& at_sides(std::size_t i) const { return at_sides_[i]; }
   const Places& places() const { return places_; }
@@ -50,13 +53,14 @@ class ContactFrames {
                        const std::vector<Points>& at_sides) const;
 
  private:
-  const Eigen::Isometry3d& pose(const ObstaclePlaces& side, std::size_t i) const;
+  Eigen::Isometry3d pose(const ObstaclePlaces& side, std::size_t i) const;
 
   const LipSurfaces* lips_;
   const Places& places_;
   const std::vector<FrameTime>& frame_times_;
   const Solution& solution_;
   const SimulationResult& result_;
+  Eigen::Isometry3d upper_teeth_;
   std::vector<std::vector<Points>> at_sides_;
   std::vector<ContactDepths> depths_;
 };

@@ -38,7 +38,7 @@ FiniteContact::Round FiniteContact::round(Work& work, bool take_off, const Eigen
   // round.
   if (take_off) contact_.take_off(work.first_order, work.skin, work.at_sides);
   const MouthContact::Correction next =
-      contact_.correct({work.skin, work.at_sides, frames_.jaw(work.frame)});
+      contact_.correct({work.skin, work.at_sides, frames_.jaw(work.frame), frames_.upper_teeth()});
   force_.setZero(work.without.size());
   const std::vector<int>& nodes = contact_.nodes();
   for (std::size_t n = 0; n < nodes.size(); ++n)

@@ -39,6 +39,7 @@ class Forces {
     } else {
       still_.setZero();
     }
+    if (drive_.rest_force.size() > 0) still_ += drive_.rest_force;
     if (drive_.forces) {
       drive_.forces->at(time_s, nodal_);
       for (std::size_t i = 0; i < drive_.forces->nodes.size(); ++i)
@@ -82,6 +83,7 @@ class Prescribed {
   const Eigen::VectorXd& at(double time_s) {
     courses_at(drive_.still, time_s / drive_.step_s, courses_);
     still_values_.noalias() = drive_.still.prescribed * courses_;
+    if (drive_.rest_prescribed.size() > 0) still_values_ += drive_.rest_prescribed;
     for (std::size_t i = 0; i < still_.size(); ++i)
       values_[still_[i]] = still_values_[Eigen::Index(i)];
     if (drive_.places) {
@@ -162,6 +164,12 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
   };
 
   newton.start();
+  if (drive.rest_force.size() > 0) {
+    HX_ASSERT(!drive.places);
+    out.factorisations +=
+        newton.equilibrium(drive.rest_prescribed, drive.rest_force).factorisations;
+    out.solution.neutral = newton.displacement();
+  }
   if (drive.places) {
     out.reactions.nodes = drive.places->nodes;
     reactions.setZero(3 * Eigen::Index(out.reactions.nodes.size()));

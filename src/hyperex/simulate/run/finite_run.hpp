@@ -17,6 +17,9 @@ struct FiniteDrive {
   fem::Drive still;    ///< prescribed displacements, and forces that keep their direction
   fem::Drive turning;  ///< forces that turn with the tissue about them; no shapes: none
   const NodalCourse* forces = nullptr;  ///< N, further forces that keep their direction; null: none
+  /// The face at rest: constant prescribed displacements (m, as `still`) and forces (N, all
+  /// unknowns). The run begins in static equilibrium under them. Empty: none.
+  Eigen::VectorXd rest_prescribed, rest_force;
   /// Displacements (m) of further prescribed nodes; null: none.
   const NodalCourse* places = nullptr;
 };

@@ -110,6 +110,7 @@ struct EliminationOrder {
 ///   driven points             motion, drive (not its gain)
 ///   driven skin               motion, measured region, drive (not its gain)
 ///   boundary                  motion, driven skin, drive.by, support, muscles (not their gains)
+///   moved bones               boundary, surgery
 ///   matrix values             boundary, drive.by, tissue, model, muscles (not their gains)
 ///   pattern                   model.element
 ///   prescribed unknowns       boundary
@@ -121,14 +122,15 @@ struct EliminationOrder {
 ///   load                      motion, measured region, drive (not its gain), drive.gain, muscles
 ///                             (not their gains), steps of reactions; unless held driven skin,
 ///                             muscle model, pattern, support, tissue, model
-///   input                     motion, boundary, load, drive.gain, muscles.gain, muscles (not their
-///                             gains), time.step_s, time.end_s, solver.tolerance
+///   input                     motion, boundary, moved bones, load, drive.gain, muscles.gain,
+///                             muscles (not their gains), time.step_s, time.end_s,
+///                             solver.tolerance
 ///   obstacle places           obstacles, contact.teeth or eyes
 ///   factor                    pattern, order, prescribed unknowns; refilled after matrix values
 ///   full model                pattern, order, prescribed unknowns, solver.newmark, time.step_s;
 ///                             refilled after matrix values
-///   motion as recorded        factor, boundary, load, muscles (not their gains), solver.newmark,
-///                             time.step_s, time.end_s, solver.tolerance
+///   motion as recorded        factor, boundary, moved bones, load, muscles (not their gains),
+///                             solver.newmark, time.step_s, time.end_s, solver.tolerance
 ///   direction of the gains    muscles.gain
 ///   drive that gains add      boundary, load, muscles (not their gains), direction of the gains,
 ///                             time.step_s, time.end_s, solver.tolerance
@@ -141,8 +143,8 @@ struct EliminationOrder {
 ///   compliance in contact     readout, measured region, driven points, pattern, order, matrix
 ///                             values, contact, obstacle places, places that come near
 ///   stream                    pattern, order, prescribed unknowns; refilled after matrix values
-///   frames                    reduced motion, full model, input, compliance in contact, solver,
-///                             contact, time
+///   frames                    reduced motion, full model, input, moved bones, compliance in
+///                             contact, solver, contact, time
 ///
 /// A refilled stage keeps its memory and its analysis, and only its numbers are computed anew. What
 /// is "unless held" no longer changes the load after hold_load(). Thus a run after set_tissue()

@@ -34,7 +34,8 @@ double Simulator::Impl::correct_linear(const ContactFrames& frames,
   progress.for_frames(touching.size(), [&](std::size_t i) {
     const std::size_t frame = touching[i];
     corrections[i] =
-        contact.correct({frames.skin(frame), frames.at_sides(frame), frames.jaw(frame)});
+        contact.correct({frames.skin(frame), frames.at_sides(frame), frames.jaw(frame),
+                         frames.upper_teeth()});
   });
   Eigen::MatrixXd force(3 * Eigen::Index(contact.nodes().size()), Eigen::Index(touching.size()));
   double residual_m = 0;
@@ -98,7 +99,8 @@ void Simulator::Impl::resolve_contact(const std::vector<FrameTime>& frame_times,
   summary = {};
   ensure_obstacle_places();
   ContactFrames frames(options.contact.lips ? stages.readout->lip_surfaces().get() : nullptr,
-                       stages.places.value(), frame_times, solution, result);
+                       stages.places.value(), frame_times, solution, result,
+                       stages.moved_bones->upper_teeth);
   std::vector<std::size_t> all(frame_times.size());
   std::iota(all.begin(), all.end(), std::size_t(0));
   frames.measure(all, progress);

@@ -53,7 +53,11 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
     drive.still = stages.input->drive;
     return drive;
   }
-  const HeldLoad& load = stages.load.value();
+  if (const MovedBones& moved = stages.moved_bones.value(); moved.any && !places) {
+    drive.rest_prescribed = moved.prescribed;
+    drive.rest_force = moved.force;
+  }
+  const HeldLoad load = places ? stages.load.value() : on_moved_bones(stages.load.value());
   std::vector<char> turning = turning_columns(load, muscles.table());
   drive.turning = drive_by(with_columns(load, turning), muscles);
   for (char& turns : turning) turns = !turns;
@@ -111,7 +115,8 @@ Solution Simulator::Impl::solve_finite(const std::vector<double>& times) {
   HeldLoad whole = stages.load.value();
   whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));
   stages.load.complete(std::make_shared<const HeldLoad>(std::move(whole)));
-  if (options.muscles == as_recorded(options.muscles)) return std::move(recorded.solution);
+  if (options.muscles == as_recorded(options.muscles) && !stages.moved_bones->any)
+    return std::move(recorded.solution);
   return std::move(run_at_finite_strain(options.muscles, false, times).solution);
 }
 

@@ -61,6 +61,8 @@ struct Simulator::Impl {
   void ensure_skin();
   /// The boundary, which unknowns it prescribes, and the values of the matrices.
   void ensure_boundary();
+  /// Where segments of bone go (options.surgery).
+  void ensure_moved_bones();
   void ensure_pattern();
   void ensure_factor();
   void ensure_full_model();
@@ -81,7 +83,12 @@ struct Simulator::Impl {
   std::shared_ptr<const fem::NodeOrder> known_order() const;
   void keep_order(const std::shared_ptr<const fem::NodeOrder>& nodes);
   HeldLoad reaction_load(const PointCurve& points);
+  /// The load with the jaw's springs where moved bones have them.
+  HeldLoad on_moved_bones(HeldLoad load) const;
   fem::Drive drive_by(const HeldLoad& forces, const MuscleOptions& muscles) const;
+  /// The displacement (all unknowns, m) of the face at rest by moved bones, in static equilibrium at
+  /// small strain; empty where none are moved.
+  Eigen::VectorXd neutral_at_small_strain();
   std::unique_ptr<fem::PartitionedFactor> contact_factor(const std::vector<int>& nodes) const;
 
   // ----- a run
@@ -100,6 +107,10 @@ struct Simulator::Impl {
   /// was run before.
   std::optional<fem::Response> response_by_gains(const fem::ReducedOptions& how);
   void report_solution(const Solution& solution);
+  /// Where bones are moved: adds the face at rest to displacements at small strain (at finite strain
+  /// they have it), and notes the skin at rest.
+  void place_neutral(bool finite, const PointCurve& points, Solution& solution,
+                     Performance& performance);
 
   // ----- a run at finite strain
 

@@ -29,15 +29,16 @@ std::vector<Eigen::Isometry3d> Simulator::Impl::jaw_now_from_rest(
     const HeldLoad& load = stages.load.value();
     const Eigen::MatrixXd course = course_at(load, jaw_row(load), 12, times_s);
     const Vec3 chin = landmarks->at(face::ibug(8));
+    const Eigen::Isometry3d& moved = stages.moved_bones->lower_teeth;
     for (std::size_t i = 0; i < out.size(); ++i) {
       const auto own = course.col(Eigen::Index(i));
-      out[i] = nearest_rigid({own.head<9>().reshaped(3, 3), own.tail<3>()}, chin);
+      out[i] = nearest_rigid({own.head<9>().reshaped(3, 3), own.tail<3>()}, moved * chin) * moved;
     }
     return out;
   }
   const std::vector<int> rows = jaw_rows(*motion, stages.points->rows, options.support);
   if (rows.empty()) return out;
-  Jaw jaw(*landmarks);
+  Jaw jaw(*landmarks, mesh->bones.get());
   const Points rest = motion->rest(rows, Eigen::all);
   for (std::size_t i = 0; i < out.size(); ++i)
     out[i] = jaw.follow(rest, points.at(times_s[i])(rows, Eigen::all));

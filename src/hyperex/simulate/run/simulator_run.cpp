@@ -40,7 +40,9 @@ std::optional<fem::Response> Simulator::Impl::response_by_gains(const fem::Reduc
   if (change.cwiseAbs().maxCoeff(&most) == 0) return {};
   const MuscleOptions as_was = as_recorded(options.muscles);
   stages.recorded.ensure(
-      [&] { return stages.factor->model.run(drive_by(stages.load.value(), as_was), how); });
+      [&] {
+        return stages.factor->model.run(drive_by(on_moved_bones(stages.load.value()), as_was), how);
+      });
   // Different strengths of the same muscles add multiples of the same motion.
   const Eigen::VectorXd direction = change / change[most];
   stages.direction.set({direction.begin(), direction.end()});
@@ -120,6 +122,7 @@ void Simulator::Impl::simulate_tissue(const std::vector<FrameTime>& frame_times,
   const std::vector<double> times = in_steps(frame_times);
   const bool finite = options.model.strain == Strain::finite;
   Solution solution = finite ? solve_finite(times) : solve_linear(times);
+  place_neutral(finite, points, solution, result.performance);
   report.simulate_s = watch.lap() - report.basis_s - (factoring_s() - prepared_s);
   result.performance.node_displacement_m.resize(result.performance.frame_time_s.size());
   progress.report(std::max(progress.done(), kReducedDone));
@@ -160,6 +163,18 @@ SimulationResult Simulator::Impl::run() {
   return result;
 }
 
+void Simulator::Impl::place_neutral(bool finite, const PointCurve& points, Solution& solution,
+                                    Performance& performance) {
+  if (!stages.moved_bones->any) return;
+  if (!finite) {
+    solution.neutral = neutral_at_small_strain();
+    solution.displacement.colwise() += solution.neutral;
+  }
+  const Eigen::Map<const Points> nodes(solution.neutral.data(), mesh->volume.nodes.rows(), 3);
+  performance.neutral_displacement_m = stages.readout->skin(
+      stages.measured.value(), stages.points->rim, nodes, points.at(0));
+}
+
 PointsF Simulator::Impl::still(double time_s) {
   time_s = std::clamp(time_s, 0.0, end_s());
   report = {};
@@ -174,9 +189,12 @@ PointsF Simulator::Impl::still(double time_s) {
     ensure_factor();
     fem::ReducedModel& model = stages.factor->model;
     const Eigen::MatrixXd d =
-        by_forces() ? model.at_rest(force_at(stages.load.value(), options.muscles, time_s))
+        by_forces() ? model.at_rest(
+                          force_at(on_moved_bones(stages.load.value()), options.muscles, time_s))
                     : model.at_rest(stages.input->drive, in_steps({{time_s, 0}}));
     nodes = Eigen::Map<const Points>(d.data(), nodes.rows(), 3);
+    if (const Eigen::VectorXd rest = neutral_at_small_strain(); rest.size() > 0)
+      nodes += Eigen::Map<const Points>(rest.data(), nodes.rows(), 3);
   }
   if (report.forces_found_anew) {  // the next run reports it
     prepared.forces_found_anew = true;

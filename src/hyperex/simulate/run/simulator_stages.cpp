@@ -60,12 +60,47 @@ void Simulator::Impl::ensure_boundary() {
       return std::make_shared<const Boundary>(by_forces() ? whole.released() : whole);
     });
   }
+  ensure_moved_bones();
   stages.prescribed.set(stages.boundary->prescribed());
   stages.values.ensure([&] {
     return std::make_shared<const MatrixValues>(
         MatrixValues{options.tissue, options.model, options.drive.by, as_recorded(options.muscles),
                      stages.boundary.pointer()});
   });
+}
+
+void Simulator::Impl::ensure_moved_bones() {
+  stages.moved_bones.ensure([&] {
+    auto out = std::make_shared<MovedBones>();
+    if (options.surgery.bones.empty()) return std::shared_ptr<const MovedBones>(std::move(out));
+    const Osteotomies cuts(options.surgery.bones, *landmarks, mesh->bones.get());
+    const Boundary moved = stages.boundary->with_moved_bones(*landmarks, cuts);
+    out->any = true;
+    out->prescribed = moved.prescribed_by_bones();
+    out->force = moved.forces_of_bones();
+    out->jaw_force = moved.unit_forces_of_jaw();
+    out->upper_teeth = cuts.upper_teeth();
+    out->lower_teeth = cuts.lower_teeth();
+    return std::shared_ptr<const MovedBones>(std::move(out));
+  });
+}
+
+HeldLoad Simulator::Impl::on_moved_bones(HeldLoad load) const {
+  if (options.drive.by == DriveBy::muscles && stages.moved_bones->any)
+    load.force.middleCols<12>(jaw_row(load)) = stages.moved_bones->jaw_force;
+  return load;
+}
+
+Eigen::VectorXd Simulator::Impl::neutral_at_small_strain() {
+  const MovedBones& moved = stages.moved_bones.value();
+  if (!moved.any) return {};
+  ensure_factor();
+  fem::Drive once;
+  once.prescribed = moved.prescribed;
+  once.force = moved.force;
+  once.s = Eigen::MatrixXd::Ones(1, 1);
+  once.rate = once.second = Eigen::MatrixXd::Zero(1, 1);
+  return stages.factor->model.at_rest(once, {0});
 }
 
 void Simulator::Impl::ensure_pattern() {
@@ -209,8 +244,9 @@ void Simulator::Impl::ensure_input(const PointCurve& points) {
   ensure_load(points);
   stages.input.ensure([&] {
     if (by_forces())
-      return std::make_shared<const InputShapes>(InputShapes{
-          drive_by(stages.load.value(), options.muscles), stages.load->greatest_opening_deg});
+      return std::make_shared<const InputShapes>(
+          InputShapes{drive_by(on_moved_bones(stages.load.value()), options.muscles),
+                      stages.load->greatest_opening_deg});
     // A boundary follows the jaw from its last position on: a copy begins at rest.
     Boundary own = stages.boundary.value();
     // The error of the compressed input must be negligible compared with the solver's tolerance.

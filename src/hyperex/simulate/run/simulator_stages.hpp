@@ -41,6 +41,15 @@ struct ReducedFactor {
   std::shared_ptr<const MatrixValues> of;  ///< null: a refill failed
 };
 
+/// The support with segments of bone moved by surgery, and what it does to the face at rest.
+struct MovedBones {
+  bool any = false;
+  Eigen::VectorXd prescribed, force;  ///< m, as Boundary::prescribed(); N, all unknowns
+  Eigen::MatrixXd jaw_force;          ///< as MuscleModel::jaw_force(), where the jaw now lies
+  Eigen::Isometry3d upper_teeth = Eigen::Isometry3d::Identity(),
+                    lower_teeth = Eigen::Isometry3d::Identity();
+};
+
 /// Contact in the compliance of the tissue at rest, and the factor that the compliance is read off.
 struct ContactModel {
   std::unique_ptr<fem::PartitionedFactor> factor;
@@ -107,6 +116,7 @@ struct SimulatorStages : StageGraph {
   OptionSource model{*this, "model", [](const O& o) { return o.model; }};
   OptionSource tissue{*this, "tissue", [](const O& o) { return o.tissue; }};
   OptionSource contact{*this, "contact", [](const O& o) { return o.contact; }};
+  OptionSource surgery{*this, "surgery", [](const O& o) { return o.surgery; }};
   OptionSource bodies{*this, "contact.teeth or eyes",
                       [](const O& o) { return std::make_tuple(o.contact.teeth, o.contact.eyes); }};
   OptionSource tolerance{*this, "solver.tolerance", [](const O& o) { return o.solver.tolerance; }};
@@ -132,6 +142,7 @@ struct SimulatorStages : StageGraph {
   Cached<DrivenPoints> points{*this, "driven points", {motion, drive}};
   Cached<DrivenSkin> driven{*this, "driven skin", {motion, measured, drive}};
   Cached<Boundary> boundary{*this, "boundary", {motion, driven, drive_by, support, muscles}};
+  Cached<MovedBones> moved_bones{*this, "moved bones", {boundary, surgery}};
   Cached<MatrixValues> values{*this, "matrix values", {boundary, drive_by, tissue, model, muscles}};
   Cached<fem::Assembler> pattern{*this, "pattern", {element}};
   Checked<std::vector<int>> prescribed{*this, "prescribed unknowns", {boundary}};
@@ -147,8 +158,10 @@ struct SimulatorStages : StageGraph {
                         {motion, measured, drive, drive_gain, muscles, reaction_steps,
                          unless_held(driven), unless_held(muscle_model), unless_held(pattern),
                          unless_held(support), unless_held(tissue), unless_held(model)}};
-  Cached<InputShapes> input{
-      *this, "input", {motion, boundary, load, drive_gain, gains, muscles, step, end, tolerance}};
+  Cached<InputShapes> input{*this,
+                            "input",
+                            {motion, boundary, moved_bones, load, drive_gain, gains, muscles, step,
+                             end, tolerance}};
   Cached<List<ObstaclePlaces>> places{*this, "obstacle places", {obstacles, bodies}};
 
   // ----- what each simulator has for itself
@@ -159,7 +172,8 @@ struct SimulatorStages : StageGraph {
   // Gains: the response to the load as it was recorded, and what they add to it.
   Owned<fem::Response> recorded{*this,
                                 "motion as recorded",
-                                {factor, boundary, load, muscles, newmark, step, end, tolerance}};
+                                {factor, boundary, moved_bones, load, muscles, newmark, step, end,
+                                 tolerance}};
   /// The change of each muscle's gain over the greatest of them.
   Checked<std::vector<double>> direction{*this, "direction of the gains", {gains}};
   Owned<fem::Drive> added_drive{
@@ -177,7 +191,8 @@ struct SimulatorStages : StageGraph {
       "compliance in contact",
       {readout, measured, points, pattern, order, values, contact, places, near}};
   Owned<Stream> stream{*this, "stream", {pattern, order, prescribed, refill(values)}};
-  Uncached frames{*this, "frames", {response, full, input, contact_model, solver, contact, time}};
+  Uncached frames{
+      *this, "frames", {response, full, input, moved_bones, contact_model, solver, contact, time}};
 
   /// Drops the stages that depend on options that differ.
   void options_changed(const SimulationOptions& before, const SimulationOptions& now);

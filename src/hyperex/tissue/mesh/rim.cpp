@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kWhole_m = 0.002, kNone_m = 0.005;  // walk to the rim: the field alone; no field
 constexpr double kOverhang_m = 0.001;  // from a closest point on a border: the field alone
-constexpr double kNear_m =
+constexpr double kNearRim_m =
     0.006;  // of a hole's border: a farther border of the skin is no rim of it
 constexpr double kWidth_m = 0.008;  // of the weights, exp(-(walk / width)^2)
 constexpr double kReach_m = 0.016;  // nodes farther are not looked at
@@ -107,7 +107,7 @@ std::vector<int> rims_of(const TriMesh& skin, const TriMesh& outer, const Border
     for (const int v : loop) {
       const auto near = [&](Eigen::Index node) {
         return borders.node[std::size_t(node)] &&
-               (outer.points.row(node) - skin.points.row(v)).norm() < kNear_m;
+               (outer.points.row(node) - skin.points.row(v)).norm() < kNearRim_m;
       };
       Eigen::Index node = 0;
       while (node < outer.points.rows() && !near(node)) ++node;

@@ -171,6 +171,7 @@ VolumeMesh thicken(TriMesh outer, const Eigen::VectorXd& skin_depth, const io::L
                    const TissueMeshOptions& options, const std::string& source, TissueMesh& out) {
   VolumeMeshOptions volume;
   volume.layers = options.layers;
+  volume.bones = out.bones.get();
   constexpr double given_up_share = 0.01;
   const double most = std::max(6.0, given_up_share * double(outer.triangles.rows()));
   std::size_t given_up = 0;
@@ -217,10 +218,12 @@ GradedSize graded_size(const io::Landmarks& landmarks, const TissueMeshOptions& 
 
 TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
                                      const TissueMeshOptions& options, std::string source,
-                                     const std::vector<char>& held)
+                                     const std::vector<char>& held,
+                                     std::shared_ptr<const anatomy::Bones> bones)
     : landmarks_(landmarks), options_(options), source_(std::move(source)) {
   naming(source_, [&] {
     TissueMesh& out = *mesh_;
+    out.bones = std::move(bones);
     SkinBuilder skin(scan, landmarks, source_, out);
     skin.cut(options.cut_lips);
     skin.thin(options.element_size_m, held);
@@ -260,8 +263,9 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
 
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
-                             const std::vector<char>& held) {
-  return *TissueMeshBuilder(scan, landmarks, options, source, held).build();
+                             const std::vector<char>& held,
+                             std::shared_ptr<const anatomy::Bones> bones) {
+  return *TissueMeshBuilder(scan, landmarks, options, source, held, std::move(bones)).build();
 }
 
 double expected_surface_nodes(const TriMesh& scan, const io::Landmarks& landmarks,

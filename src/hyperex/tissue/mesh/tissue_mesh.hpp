@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/bones.hpp"
 #include "hyperex/core/describe.hpp"
 #include "hyperex/core/note.hpp"
 #include "hyperex/geometry/insert_line.hpp"
@@ -113,6 +114,8 @@ struct TissueMesh {
   double mean_distance_mm = 0,
          max_distance_mm = 0;  ///< scan vertices to the simulated outer surface
   std::vector<Note> notes;     ///< what was mended, trimmed or cut
+  /// The person's own bones, on which the layer ends; null: thickness and bones are estimated.
+  std::shared_ptr<const anatomy::Bones> bones;
 };
 
 /// build_tissue_mesh() in two steps, so that work on the skin can begin before the volume is built.
@@ -121,7 +124,8 @@ class TissueMeshBuilder {
   /// Makes the skin. `scan` and `landmarks` must outlive this. Throws as build_tissue_mesh().
   TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
                     const TissueMeshOptions& options, std::string source,
-                    const std::vector<char>& held = {});
+                    const std::vector<char>& held = {},
+                    std::shared_ptr<const anatomy::Bones> bones = nullptr);
 
   /// The members of TissueMesh before `volume`, and `skin_upper_margin`. They may be read while
   /// build() runs.
@@ -142,10 +146,12 @@ class TissueMeshBuilder {
 /// Cleans a working copy, cuts joined lips, mends small holes, remeshes with a size that grows away
 /// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
 /// (complete_landmarks). `source` names the scan in errors. `held`, per scan vertex: thinning keeps
-/// it (empty: none). Throws InputError where the scan cannot be used.
+/// it (empty: none). `bones`: the layer ends on them where they lie at most kDeepestBone_m under
+/// the skin (bone_depth.hpp); null: none are known. Throws InputError where the scan cannot be used.
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
-                             const std::vector<char>& held = {});
+                             const std::vector<char>& held = {},
+                             std::shared_ptr<const anatomy::Bones> bones = nullptr);
 
 /// An estimate of the number of nodes on the outer surface of that mesh. Takes milliseconds, since
 /// nothing is meshed. `landmarks`: as for build_tissue_mesh().

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/tissue/mesh/bone_depth.hpp"
 #include "hyperex/tissue/mesh/prism_split.hpp"
 #include "hyperex/tissue/mesh/unfold.hpp"
 
@@ -35,8 +36,8 @@ class LayerBuilder {
     smooth_all(8, 0.5);
     // Opposite directions cancel in a mean, as at the corners of the mouth, where the layer would
     // become a membrane: what is smoothed is the direction.
-    for (Eigen::Index v = 0; v < inward_.rows(); ++v) set_length(v, thickness[v]);
-    wanted_ = thickness;
+    wanted_ = options.bones ? bone_depths(outer, inward_, thickness, *options.bones) : thickness;
+    for (Eigen::Index v = 0; v < inward_.rows(); ++v) set_length(v, wanted_[v]);
   }
 
   int untangle();

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/anatomy/bones.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
@@ -35,6 +36,8 @@ struct VolumeMeshOptions {
   /// Least volume of a tetrahedron relative to the ideal one in its prism (area x height / 3).
   /// Larger values are tried first.
   double least_volume_share = 0.01;
+  /// The layer ends on these bones where bone_depths() finds them; null: none.
+  const anatomy::Bones* bones = nullptr;
 };
 
 /// `outer`: manifold, oriented outwards. `thickness_m`: requested thickness per outer vertex, > 0.

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/run/surgery.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+
+#include "hyperex/core/run_together.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/metrics/soft_tissue_moves.hpp"
+#include "hyperex/render/camera.hpp"
+#include "hyperex/render/contact_sheet.hpp"
+#include "hyperex/render/render.hpp"
+#include "hyperex/run/backing_surfaces.hpp"
+#include "hyperex/run/face_box.hpp"
+
+namespace hyperex::run {
+namespace {
+
+std::vector<metrics::SoftTissueMove> moves_of(const Results& base, const VariantRun& run) {
+  return metrics::soft_tissue_moves(base.simulation.performance, run.simulation.performance,
+                                    base.inputs.landmarks, run.scene.surgery.bones);
+}
+
+/// The face before and after surgery, at rest and at the peak of base, from the front and in
+/// profile.
+void draw_surgery(const Results& base, const VariantRun& run, const std::filesystem::path& file) {
+  const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
+  const simulate::Performance &before = base.simulation.performance,
+                              &after = run.simulation.performance;
+  const std::array<std::size_t, 2> frames{0, std::size_t(before.peak_frame)};
+  const auto skin_of = [&](const simulate::Performance& p, std::size_t f) {
+    return TriMesh{
+        frame.local_points(before.skin_rest.points + p.skin_displacement_m[f].cast<double>()),
+        before.skin_rest.triangles};
+  };
+  const Points rest = frame.local_points(before.skin_rest.points);
+  const FaceBox box = face_box(base.inputs.landmarks, frame);
+  std::vector<Vec3> seen;
+  for (const std::size_t f : frames)
+    for (const simulate::Performance* p : {&before, &after}) {
+      const TriMesh skin = skin_of(*p, f);
+      for (Eigen::Index v = 0; v < rest.rows(); ++v)
+        if (box.holds(rest.row(v))) seen.emplace_back(skin.points.row(v));
+    }
+  Points framed(Eigen::Index(seen.size()), 3);
+  for (std::size_t i = 0; i < seen.size(); ++i) framed.row(Eigen::Index(i)) = seen[i].transpose();
+
+  const render::RenderOptions size{.width_px = 300, .height_px = 380};
+  const double aspect = double(size.width_px) / size.height_px;
+  std::array cameras{render::framing(framed, render::front_view(), aspect),
+                     render::framing(framed, Vec3::UnitX(), aspect)};
+  cameras[0].height_m = cameras[1].height_m = std::max(cameras[0].height_m, cameras[1].height_m);
+  const report::FaceBacking backing =
+      backing_in_frame(before.skin_rest, base.inputs.landmarks, base.teeth, frame);
+  render::ContactSheet sheet;
+  sheet.title = run.scene.title;
+  sheet.note = fmt::format("before and after surgery: at rest, and at {:.2f} s",
+                           before.frame_time_s[frames[1]]);
+  sheet.columns = 4;
+  sheet.pictures.resize(8);
+  run_each(sheet.pictures.size(), [&](std::size_t at) {
+    const std::size_t row = at / 4, view = at % 4 / 2, face = at % 2;
+    const simulate::Performance& p = face == 0 ? before : after;
+    const TriMesh skin = skin_of(p, frames[row]);
+    const BackingSurfaces behind(backing, frame, skin.points, base.teeth,
+                                 p.jaw_now_from_rest[frames[row]]);
+    sheet.pictures[at] = {render::render(behind.with({.mesh = skin}), cameras[view], size),
+                          fmt::format("{}, {}", face == 0 ? "before" : "after",
+                                      row == 0 ? "at rest" : "expression"),
+                          render::side_marks(cameras[view])};
+  });
+  render::write_png(file, render::contact_sheet(sheet));
+}
+
+}  // namespace
+
+void write_surgery(const Results& base, const VariantRun& run,
+                   const std::filesystem::path& directory) {
+  metrics::write_soft_tissue_csv(directory / "surgery.csv", moves_of(base, run));
+  draw_surgery(base, run, directory / "surgery.png");
+}
+
+nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run) {
+  nlohmann::ordered_json out{{"landmarks", metrics::json_of(moves_of(base, run))}};
+  if (const double width = metrics::change_of_nose_width_mm(base.simulation.performance,
+                                                            run.simulation.performance);
+      std::isfinite(width))
+    out["nose_width_change_mm"] = width;
+  return out;
+}
+
+}  // namespace hyperex::run

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bones that surgery moves, and the face that follows them.
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/drive/osteotomy.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "simulate/small_face.hpp"
+#include "support/refusal.hpp"
+
+namespace hyperex::simulate {
+namespace {
+using face::ibug;
+
+BoneMove move_of(BonePart part, std::vector<double> move_m, BoneCut cut = BoneCut::standard,
+                 std::vector<double> turn_deg = {0, 0, 0}) {
+  return {.part = part, .cut = cut, .move_m = std::move(move_m), .turn_deg = std::move(turn_deg)};
+}
+
+class Surgery : public testing::Test {
+ protected:
+  Surgery() {
+    options_.time.step_s = 0.01;
+    options_.drive.by = DriveBy::muscles;
+    options_.drive.points = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "ibug68_8"};
+  }
+  Simulator made(const std::vector<BoneMove>& bones) const {
+    SimulationOptions options = options_;
+    options.surgery.bones = bones;
+    return Simulator(mesh_, face_.landmarks, motion_, options);
+  }
+  Points neutral(const std::vector<BoneMove>& bones) const {
+    return made(bones).run().performance.neutral_displacement_m.cast<double>();
+  }
+  /// Along the axes of the face.
+  Vec3 local(const Eigen::Ref<const Eigen::RowVector3d>& v) const {
+    return frame_.face_from_scan() * v.transpose();
+  }
+  int vertex_at(const std::string& landmark) const {
+    Eigen::Index best = 0;
+    (mesh_->skin.points.rowwise() - face_.landmarks.at(landmark).transpose())
+        .rowwise()
+        .squaredNorm()
+        .minCoeff(&best);
+    return int(best);
+  }
+  Vec3 shift(const Points& skin, const std::string& landmark) const {
+    return 1e3 * local(skin.row(vertex_at(landmark)));
+  }
+
+  const test::SmallFace face_ = test::small_face(2);
+  const std::shared_ptr<const tissue::TissueMesh> mesh_ =
+      std::make_shared<const tissue::TissueMesh>(face_.mesh);
+  const face::FaceFrame frame_ = face::face_frame(face_.landmarks);
+  const AlignedMotion motion_ = test::mouth_opening(face_.landmarks, 6, 5, 30);
+  SimulationOptions options_;
+};
+
+TEST_F(Surgery, AllBonesTogetherMoveTheFaceRigidly) {
+  for (const bool border : {true, false}) {
+    options_.support.border_held = border;
+    const Points moved = neutral({move_of(BonePart::skull, {0.002, -0.003, 0.006}),
+                                  move_of(BonePart::mandible, {0.002, -0.003, 0.006}, BoneCut::whole)});
+    for (Eigen::Index v = 0; v < moved.rows(); ++v)
+      EXPECT_LT((local(moved.row(v)) - Vec3(0.002, -0.003, 0.006)).norm(), 1e-6 * 0.007 + 1e-9)
+          << v;
+  }
+}
+
+TEST_F(Surgery, AllBonesTogetherTurnTheFaceRigidlyAtFiniteStrain) {
+  options_.model.strain = Strain::finite;
+  options_.solver.finite_tolerance = 1e-8;
+  options_.time.end_s = 0.04;
+  const std::vector<BoneMove> bones = {
+      move_of(BonePart::skull, {0, 0, 0.004}, BoneCut::standard, {12, -5, 8}),
+      move_of(BonePart::mandible, {0, 0, 0.004}, BoneCut::whole, {12, -5, 8})};
+  const Points moved = neutral(bones);
+  const Osteotomies cuts(bones, face_.landmarks);
+  for (Eigen::Index v = 0; v < moved.rows(); ++v) {
+    const Vec3 at = mesh_->skin.points.row(v);
+    EXPECT_LT((cuts.cranium() * at - at - moved.row(v).transpose()).norm(), 1e-6) << v;
+  }
+}
+
+TEST_F(Surgery, AMandibleThatMovesTakesTheChinAndNotTheNose) {
+  const Points moved = neutral({move_of(BonePart::mandible, {0, 0, 0.006})});
+  EXPECT_GT(shift(moved, ibug(8)).z(), 4.5);
+  EXPECT_LT(shift(moved, ibug(8)).z(), 6.1);
+  const double lip = shift(moved, ibug(57)).z();
+  EXPECT_GT(lip, 2);
+  EXPECT_LT(lip, shift(moved, ibug(8)).z());
+  EXPECT_LT(shift(moved, ibug(30)).norm(), 0.5);
+  EXPECT_LT(shift(moved, ibug(27)).norm(), 0.05);
+}
+
+TEST_F(Surgery, AChinThatMovesTakesLessOfTheJaw) {
+  const Points jaw = neutral({move_of(BonePart::mandible, {0, 0, 0.006})});
+  const Points chin = neutral({move_of(BonePart::chin, {0, 0, 0.006})});
+  EXPECT_GT(shift(chin, ibug(8)).z(), 3.5);
+  EXPECT_LT(shift(chin, ibug(57)).z(), 0.7 * shift(jaw, ibug(57)).z());
+  EXPECT_LT(shift(chin, ibug(5)).norm(), 0.7 * shift(jaw, ibug(5)).norm());
+}
+
+TEST_F(Surgery, AMaxillaThatMovesTakesTheUpperLip) {
+  const Points moved = neutral({move_of(BonePart::maxilla, {0, 0, 0.005})});
+  EXPECT_GT(shift(moved, ibug(33)).z(), 1.0);
+  EXPECT_GT(shift(moved, ibug(51)).z(), 0.5);
+  EXPECT_LT(shift(moved, ibug(8)).norm(), 0.5);
+  EXPECT_LT(shift(moved, ibug(27)).norm(), 0.3);
+}
+
+TEST_F(Surgery, TheRecordedForcesActOnTheFaceAfterwards) {
+  const SimulationResult before = made({}).run();
+  const SimulationResult after = made({move_of(BonePart::mandible, {0, 0, 0.004})}).run();
+  EXPECT_EQ(before.performance.neutral_displacement_m.rows(), 0);
+  const PointsF& rest = after.performance.neutral_displacement_m;
+  ASSERT_EQ(rest.rows(), mesh_->skin.points.rows());
+  EXPECT_LT((after.performance.skin_displacement_m[0] - rest).cwiseAbs().maxCoeff(), 1e-6)
+      << "it begins at rest on the moved bones";
+  // At small strain the motion is the same but for where the jaw now lies.
+  const std::size_t last = before.performance.skin_displacement_m.size() - 1;
+  const float most = before.performance.skin_displacement_m[last].cwiseAbs().maxCoeff();
+  EXPECT_LT((after.performance.skin_displacement_m[last] - rest -
+             before.performance.skin_displacement_m[last])
+                .cwiseAbs()
+                .maxCoeff(),
+            0.1F * most);
+  const Vec3 chin = face_.landmarks.at(ibug(8));
+  EXPECT_NEAR(local((after.performance.jaw_now_from_rest[0] * chin - chin).transpose()).z(), 0.004,
+              1e-9)
+      << "the teeth are drawn where they are";
+}
+
+TEST_F(Surgery, MovesAddUpAndTheChinGoesWithTheMandible) {
+  const Osteotomies cuts({move_of(BonePart::mandible, {0, 0, 0.006}),
+                          move_of(BonePart::chin, {0, 0.002, 0.003})},
+                         face_.landmarks);
+  const Vec3 chin = face_.landmarks.at(ibug(8));
+  const Vec3 by = cuts.motion(Bone::mandible, chin) * chin - chin;
+  EXPECT_LT((local(by.transpose()) - Vec3(0, 0.002, 0.009)).norm(), 1e-12);
+  EXPECT_LT((local((cuts.lower_teeth() * chin - chin).transpose()) - Vec3(0, 0, 0.006)).norm(),
+            1e-12);
+  const Vec3 condyle = JawHinge(face_.landmarks).centre;
+  EXPECT_TRUE(cuts.motion(Bone::mandible, condyle).isApprox(Eigen::Isometry3d::Identity()))
+      << "behind the cut";
+  EXPECT_TRUE(cuts.motion(Bone::skull, chin).isApprox(Eigen::Isometry3d::Identity()));
+  EXPECT_TRUE(cuts.upper_teeth().isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST_F(Surgery, TurnsHaveTheSignsThatTheyAreDescribedWith) {
+  const auto turned = [&](std::vector<double> degrees, const Vec3& offset) {
+    const Osteotomies cuts({move_of(BonePart::mandible, {0, 0, 0}, BoneCut::whole, degrees)},
+                           face_.landmarks);
+    const Vec3 at = JawHinge(face_.landmarks).centre + offset;
+    return local((cuts.motion(Bone::mandible, at) * at - at).transpose());
+  };
+  EXPECT_LT(turned({5, 0, 0}, 0.08 * frame_.z).y(), -0.005) << "the front turns down";
+  EXPECT_GT(turned({0, 5, 0}, 0.08 * frame_.z).x(), 0.005) << "the front turns to the left";
+  EXPECT_GT(turned({0, 0, 5}, 0.05 * frame_.x).y(), 0.003) << "the left side turns up";
+}
+
+TEST_F(Surgery, ACutMayBeShifted) {
+  BoneMove chin = move_of(BonePart::chin, {0, 0, 0.006});
+  const Vec3 lower = frame_.world(frame_.local(face_.landmarks.at(ibug(8))) + Vec3(0, 0.004, 0));
+  EXPECT_FALSE(Osteotomies({chin}, face_.landmarks)
+                   .motion(Bone::mandible, lower)
+                   .isApprox(Eigen::Isometry3d::Identity()));
+  chin.cut_shift_m = -0.02;
+  EXPECT_TRUE(Osteotomies({chin}, face_.landmarks)
+                  .motion(Bone::mandible, lower)
+                  .isApprox(Eigen::Isometry3d::Identity()));
+}
+
+TEST_F(Surgery, IsRefusedWhereDrivenPointsWouldStayBehindOrACutBelongsToAnotherBone) {
+  const auto refused = [&] { return hyperex::test::refusal([&] { check(options_); }); };
+  options_.surgery.bones = {move_of(BonePart::chin, {0, 0, 0.006})};
+  options_.drive.by = DriveBy::displacement;
+  EXPECT_THAT(refused(), testing::HasSubstr("drive.by = muscles"));
+  options_.drive.by = DriveBy::muscles;
+  options_.surgery.bones[0].cut = BoneCut::bsso;
+  EXPECT_THAT(refused(), testing::AllOf(testing::HasSubstr("surgery.bone[0].cut"),
+                                        testing::HasSubstr("standard or genioplasty for the chin")));
+  options_.surgery.bones[0].cut = BoneCut::whole;
+  EXPECT_THAT(refused(), testing::HasSubstr("for the chin"));
+  options_.surgery.bones[0].part = BonePart::mandible;
+  EXPECT_NO_THROW(check(options_));
+}
+
+}  // namespace
+}  // namespace hyperex::simulate
