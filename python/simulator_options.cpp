@@ -19,6 +19,8 @@ void bind_simulator_options(py::module_& m) {
   OptionsClass<ModelOptions>(m, "ModelOptions");
   OptionsClass<SolverOptions>(m, "SolverOptions");
   OptionsClass<ContactOptions>(m, "ContactOptions");
+  OptionsClass<BoneMove>(m, "BoneMove");
+  OptionsClass<SurgeryOptions>(m, "SurgeryOptions");
   OptionsClass<TimeOptions>(m, "TimeOptions");
   OptionsClass<SimulationOptions>(m, "SimulationOptions");
 }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/core/bounds.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/embree_device.hpp"
 
@@ -84,7 +85,8 @@ double Bones::along(const Vec3& from, const Vec3& way, double within_m) const {
 
 std::optional<Condyles> find_condyles(const TriMesh& mandible, const face::FaceFrame& frame,
                                       const Vec3& jaw_axis) {
-  constexpr double kOffMiddle_m = 0.02, kHind_m = 0.02, kHead_m = 0.008, kFarthest_m = 0.03;
+  constexpr double kOffMiddle_m = 0.02, kHind_m = 0.02, kHead_m = 0.008, kFarthest_m = 0.045;
+  constexpr Bounds kApart_m{0.07, 0.13};
   const Vec3 middle = frame.local(jaw_axis);
   const Points local = frame.local_points(mandible.points);
   Condyles out;
@@ -108,7 +110,9 @@ std::optional<Condyles> find_condyles(const TriMesh& mandible, const face::FaceF
       }
     out[std::size_t(side)] = frame.world(sum / count);
   }
-  if ((0.5 * (out[0] + out[1]) - jaw_axis).norm() > kFarthest_m) return std::nullopt;
+  if (!kApart_m.holds((out[0] - out[1]).norm()) ||
+      (0.5 * (out[0] + out[1]) - jaw_axis).norm() > kFarthest_m)
+    return std::nullopt;
   return out;
 }
 

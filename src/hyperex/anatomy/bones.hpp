@@ -47,8 +47,8 @@ class Bones {
 
 /// The condyles of a mandible: on each side, the head is the highest part of the hindmost 20 mm.
 /// `jaw_axis`: the middle between the condyles as landmarks place it. Nothing where a side has no
-/// vertices or the answer's middle is more than 30 mm from `jaw_axis`, as of a mandible that is
-/// incomplete.
+/// vertices, the heads are not 70 to 130 mm apart, or their middle is more than 45 mm from
+/// `jaw_axis`, as of a mandible that is incomplete.
 std::optional<Condyles> find_condyles(const TriMesh& mandible, const face::FaceFrame& frame,
                                       const Vec3& jaw_axis);
 

@@ -56,7 +56,7 @@ constexpr NoteKind kKinds[] = {
   warning("anatomy.bone_outside", "anatomy.skull",
     "Bone lies outside the skin at more than 1 % of the face; at more than 10 % it is refused."),
   warning("anatomy.no_condyles", "anatomy.mandible",
-    "The heads of the mandible were not found within 30 mm of where landmarks place them."),
+    "The heads of the mandible were not found within 45 mm of where landmarks place them."),
   warning("anatomy.no_mandible", "anatomy.mandible",
     "Bones are given without a mandible."),
   warning("law.idle", "tissue.strain",

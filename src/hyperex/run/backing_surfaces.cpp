@@ -40,7 +40,7 @@ report::FaceBacking backing_in_frame(const TriMesh& skin_rest, const io::Landmar
 
 BackingSurfaces::BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
                                  const Points& skin, const anatomy::Teeth* teeth,
-                                 const Eigen::Isometry3d& jaw) {
+                                 const Eigen::Isometry3d& jaw, const Eigen::Isometry3d& upper) {
   for (const report::Eyeball& eye : backing.eyeballs) {
     const TriMesh mesh = report::placed_eye(eye);
     parts_.push_back(
@@ -58,11 +58,12 @@ BackingSurfaces::BackingSurfaces(const report::FaceBacking& backing, const face:
     mesh.triangles.col(1).swap(mesh.triangles.col(2));  // seen from behind: darker, no sheen
     parts_.push_back({std::move(mesh), {}, true, listed(opening.colours)});
   }
-  if (teeth) add_teeth(*teeth, frame, jaw, light);
+  if (teeth) add_teeth(*teeth, frame, jaw, upper, light);
 }
 
 void BackingSurfaces::add_teeth(const anatomy::Teeth& teeth, const face::FaceFrame& frame,
-                                const Eigen::Isometry3d& jaw, double light) {
+                                const Eigen::Isometry3d& jaw, const Eigen::Isometry3d& upper,
+                                double light) {
   const auto add = [&](const TriMesh& part, const TriMesh& crowns, const report::Srgb& colour,
                        const Eigen::Isometry3d& moved) {
     if (part.triangles.rows() == 0) return;
@@ -73,9 +74,8 @@ void BackingSurfaces::add_teeth(const anatomy::Teeth& teeth, const face::FaceFra
                       true,
                       shaded(colour, light * report::light_in_mouth(part, crowns, frame.z))});
   };
-  const Eigen::Isometry3d still = Eigen::Isometry3d::Identity();
-  add(teeth.upper.crowns, teeth.upper.crowns, report::kCrownColour, still);
-  add(teeth.upper.gum, teeth.upper.crowns, report::kGumColour, still);
+  add(teeth.upper.crowns, teeth.upper.crowns, report::kCrownColour, upper);
+  add(teeth.upper.gum, teeth.upper.crowns, report::kGumColour, upper);
   add(teeth.lower.crowns, teeth.lower.crowns, report::kCrownColour, jaw);
   add(teeth.lower.gum, teeth.lower.crowns, report::kGumColour, jaw);
   add(teeth.tongue, teeth.lower.crowns, report::kTongueColour, jaw);

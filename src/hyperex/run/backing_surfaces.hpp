@@ -22,9 +22,10 @@ class BackingSurfaces {
  public:
   /// `backing`: from backing_in_frame(). `skin`: the vertices in that pose in the face's frame, to
   /// which the pockets are attached. `teeth`: at rest, scan frame; null: none. `jaw`: motion of the
-  /// lower teeth, now_from_rest.
+  /// lower teeth, now_from_rest; `upper`: that of the upper ones, where surgery moved them.
   BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
-                  const Points& skin, const anatomy::Teeth* teeth, const Eigen::Isometry3d& jaw);
+                  const Points& skin, const anatomy::Teeth* teeth, const Eigen::Isometry3d& jaw,
+                  const Eigen::Isometry3d& upper = Eigen::Isometry3d::Identity());
 
   /// The skin and all surfaces behind it. They refer to this object.
   std::vector<render::Surface> with(const render::Surface& skin) const;
@@ -37,7 +38,7 @@ class BackingSurfaces {
     render::VertexColours colours = {};  ///< if not empty, used instead of `colour`
   };
   void add_teeth(const anatomy::Teeth& teeth, const face::FaceFrame& frame,
-                 const Eigen::Isometry3d& jaw, double light);
+                 const Eigen::Isometry3d& jaw, const Eigen::Isometry3d& upper, double light);
 
   std::vector<Part> parts_;
 };

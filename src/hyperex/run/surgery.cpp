@@ -65,7 +65,7 @@ void draw_surgery(const Results& base, const VariantRun& run, const std::filesys
     const simulate::Performance& p = face == 0 ? before : after;
     const TriMesh skin = skin_of(p, frames[row]);
     const BackingSurfaces behind(backing, frame, skin.points, base.teeth,
-                                 p.jaw_now_from_rest[frames[row]]);
+                                 p.jaw_now_from_rest[frames[row]], p.upper_teeth_now_from_rest);
     sheet.pictures[at] = {render::render(behind.with({.mesh = skin}), cameras[view], size),
                           fmt::format("{}, {}", face == 0 ? "before" : "after",
                                       row == 0 ? "at rest" : "expression"),

@@ -17,6 +17,8 @@ simulate::SimulationOptions simulation_options(const scene::Scene& scene, const 
   o.region = scene.region;
   o.contact = scene.contact;
   o.surgery = scene.surgery;
+  // Bones push the lips against each other.
+  if (!o.surgery.bones.empty()) o.contact.lips = true;
   o.solver = scene.solver;
   o.time = scene.time;
   return o;

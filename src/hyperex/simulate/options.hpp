@@ -192,7 +192,8 @@ struct SurgeryOptions {
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(bones),
              "Segments of bone that are moved, one after the other: the mandible before the chin "
-             "on it. The face at rest follows them, then the recorded forces act.",
+             "on it. The face at rest follows them, then the recorded forces act. The lips are kept "
+             "from passing through each other, as with contact.lips.",
              {.key = "bone"});
   }
 };

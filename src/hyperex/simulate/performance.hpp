@@ -39,6 +39,8 @@ struct Performance {
   /// Where surgery moved bones: displacement of the skin at rest afterwards (|skin_rest| x 3); all
   /// displacements contain it. Otherwise no rows.
   PointsF neutral_displacement_m;
+  /// Where surgery put the upper teeth; jaw_now_from_rest has the lower ones.
+  Eigen::Isometry3d upper_teeth_now_from_rest = Eigen::Isometry3d::Identity();
   int peak_frame = 0;  ///< frame with the greatest mean displacement of the driven points
   /// The jaw's pose in each frame: its point x at rest is at jaw_now_from_rest[f] * x.
   std::vector<Eigen::Isometry3d> jaw_now_from_rest;

@@ -33,7 +33,7 @@ class BoneMap {
     const Vec3 q = frame_.local(inner), p = frame_.local(outer);
     if (bone == Bone::skull)
       return q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
-    return (p.y() < lower_lip_ - jaw_below_lip_m || q.z() < condyles_z_ + ramus_m) &&
+    return p.y() < lower_lip_ - jaw_below_lip_m && q.z() > condyles_z_ + ramus_m &&
            distance_to_lips(p) >= jaw_off_lips_m;
   }
 

@@ -13,8 +13,8 @@ using anatomy::Bone;
 /// Where TissueMesh::bones are known, it is the bone at most 1.5 mm from the node, save where tissue
 /// slides freely over bone and teeth:
 ///  * over the skull below the line from the base of the nose back to below the ears;
-///  * over the mandible less than 16 mm below the lower lip's edge, in front of the ramus (more than
-///    35 mm in front of the estimated condyles);
+///  * over the mandible less than 16 mm below the lower lip's edge, and over its ramus (less than
+///    35 mm in front of the estimated condyles), where it glides on the masseter;
 ///  * within 8 mm (skull) or 6 mm (mandible) of the lips.
 ///
 /// Otherwise it is estimated from landmarks:

@@ -171,6 +171,7 @@ void Simulator::Impl::place_neutral(bool finite, const PointCurve& points, Solut
     solution.displacement.colwise() += solution.neutral;
   }
   const Eigen::Map<const Points> nodes(solution.neutral.data(), mesh->volume.nodes.rows(), 3);
+  performance.upper_teeth_now_from_rest = stages.moved_bones->upper_teeth;
   performance.neutral_displacement_m = stages.readout->skin(
       stages.measured.value(), stages.points->rim, nodes, points.at(0));
 }
