@@ -15,6 +15,7 @@
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/run/corner_words.hpp"
+#include "hyperex/run/surgery.hpp"
 #include "hyperex/run/run_scene.hpp"
 
 namespace hyperex::cli {
@@ -78,12 +79,12 @@ void run(const RunOptions& options) {
   const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
-      "{}{}{}{}{}"
+      "{}{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), uncertainty_line(summary), budget_lines(summary),
+      run::variant_lines(summary), run::surgery_lines(summary), uncertainty_line(summary), budget_lines(summary),
       printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},

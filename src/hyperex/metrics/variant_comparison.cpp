@@ -166,10 +166,12 @@ ResponsePair response_pair(const simulate::Performance& base, const motion::Moti
 DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Motion& run,
                                     int column) {
   DistanceFromBase farthest;
-  if (column < 0 || column >= int(base.names.size())) return farthest;
+  if (column < 0 || column >= int(base.names.size()) || run.positions.empty()) return farthest;
+  const Eigen::RowVector3d at_rest =
+      run.positions[0].row(column) - base.positions.at(0).row(column);
   for (std::size_t k = 0; k < run.positions.size(); ++k) {
     const double mm =
-        1e3 * (run.positions[k].row(column) - base.positions.at(k).row(column)).norm();
+        1e3 * (run.positions[k].row(column) - base.positions.at(k).row(column) - at_rest).norm();
     if (!(mm <= farthest.most_mm)) farthest = {mm, run.time_s[k]};
   }
   return farthest;

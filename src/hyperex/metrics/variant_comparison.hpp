@@ -36,8 +36,8 @@ struct ResponsePair {
 ResponsePair response_pair(const simulate::Performance& base, const motion::Motion& recorded,
                            double clear_m);
 
-/// The greatest distance over time between a point in this run and in base at the same time. It
-/// shows differences that the excursion does not: for example, a weaker smile while the opening jaw
+/// The greatest distance over time between a point in this run and in base at the same time, less
+/// that between the two in the first sample, which surgery makes. It shows differences that the excursion does not: for example, a weaker smile while the opening jaw
 /// moves the point farther.
 struct DistanceFromBase {
   double most_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the point is unknown

@@ -91,4 +91,32 @@ nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run) 
   return out;
 }
 
+std::string surgery_lines(const nlohmann::ordered_json& summary) {
+  constexpr std::array kShown = {std::pair{"pogonion", "chin"},
+                                 {"labiale_inferius", "lower lip"},
+                                 {"labiale_superius", "upper lip"},
+                                 {"subnasale", "base of the nose"},
+                                 {"pronasale", "tip of the nose"}};
+  std::string lines;
+  if (!summary.contains("variants")) return lines;
+  for (const auto& row : summary["variants"]["table"]) {
+    if (!row.contains("surgery")) continue;
+    std::string text;
+    for (const auto& [name, words] : kShown)
+      for (const auto& one : row["surgery"]["landmarks"]) {
+        if (one["landmark"] != name) continue;
+        const std::vector<double> by = one["at_rest_mm"];
+        text += fmt::format("{}{} {:.1f} mm", text.empty() ? "" : ", ", words,
+                            std::hypot(by[0], by[1], by[2]));
+        if (one.contains("published"))
+          text += fmt::format(" ({:.2f} of the bone; published {:.2f} to {:.2f})",
+                              one["soft_per_bone"].get<double>(),
+                              one["published"]["low"].get<double>(),
+                              one["published"]["high"].get<double>());
+      }
+    lines += fmt::format("  {}, at rest: {}\n", row["name"].get<std::string>(), text);
+  }
+  return lines;
+}
+
 }  // namespace hyperex::run

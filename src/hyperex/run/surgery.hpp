@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "hyperex/run/outputs.hpp"
 #include "hyperex/session/variants.hpp"
@@ -16,5 +17,9 @@ void write_surgery(const Results& base, const VariantRun& run,
 
 /// "surgery" of such a variant's row in summary.json.
 nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run);
+
+/// What each such variant does to the face at rest, one line per variant: "  advancement, at rest:
+/// chin 5.6 mm (0.94 of the bone; published 0.80 to 1.33), lower lip 4.4 mm (...)".
+std::string surgery_lines(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <memory>
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/geodesic.hpp"
@@ -87,6 +88,53 @@ TEST(NodeAreas, ShareOutTheSurface) {
   EXPECT_NEAR(areas[sheet.vertex(3, 0)], 0.5e-4, 1e-15) << "half on the border";
   const test::SmallFace face = test::small_face();
   EXPECT_NEAR(node_areas(face.mesh.skin).sum(), triangle_areas(face.mesh.skin).sum(), 1e-12);
+}
+
+/// The inner surface over one bone.
+TriMesh inner_over(const tissue::TissueMesh& mesh, const std::vector<Bone>& under, Bone bone) {
+  TriMesh out{mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()), Triangles(0, 3)};
+  for (Eigen::Index f = 0; f < mesh.volume.outer.triangles.rows(); ++f) {
+    const Eigen::RowVector3i t = mesh.volume.outer.triangles.row(f);
+    if (under[std::size_t(t[0])] != bone || under[std::size_t(t[1])] != bone ||
+        under[std::size_t(t[2])] != bone)
+      continue;
+    out.triangles.conservativeResize(out.triangles.rows() + 1, 3);
+    out.triangles.bottomRows(1) = t;
+  }
+  return out;
+}
+
+TEST(BonesUnder, AreThoseThatAreGivenWhereTissueIsAttached) {
+  test::SmallFace face = test::small_face();
+  const auto estimated = bones_under(face.mesh, face.landmarks);
+  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh), 0), 0) << "no bones are known";
+  TriMesh skull = inner_over(face.mesh, estimated, Bone::skull);
+  TriMesh jaw = inner_over(face.mesh, estimated, Bone::mandible);
+  face.mesh.bones = std::make_shared<const anatomy::Bones>(skull, jaw);
+  const auto given = bones_under(face.mesh, face.landmarks);
+  const auto backed = backed_by_bone(face.mesh);
+  int same = 0;
+  for (std::size_t v = 0; v < given.size(); ++v) {
+    same += given[v] == estimated[v];
+    if (given[v] != Bone::none) {
+      EXPECT_EQ(given[v], estimated[v]) << v;
+      EXPECT_TRUE(backed[v]) << v;
+    }
+  }
+  EXPECT_GT(same, 0.93 * double(given.size()));
+  EXPECT_GT(std::ranges::count(backed, 0), 20) << "over the cavities";
+  // Bone under the lips: the tissue is not attached there, and it is backed.
+  TriMesh all = skull;
+  all.triangles = face.mesh.volume.outer.triangles;
+  face.mesh.bones = std::make_shared<const anatomy::Bones>(all, TriMesh());
+  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh), 0), 0);
+  const auto everywhere = bones_under(face.mesh, face.landmarks);
+  const auto at = [&](int k) {
+    return everywhere[std::size_t(
+        nearest_vertex(face.mesh.skin.points, face.landmarks.at(ibug(k))))];
+  };
+  for (const int k : {51, 57, 48, 54}) EXPECT_EQ(at(k), Bone::none) << k;
+  for (const int k : {27, 19, 24}) EXPECT_EQ(at(k), Bone::skull) << k;
 }
 
 }  // namespace

@@ -51,8 +51,12 @@ TEST(BoneDepth, IsThatOfTheTableWhereBoneIsTooDeepOrThereIsNone) {
   const Eigen::VectorXd depth = depths(half, 0.012);
   for (Eigen::Index v = 0; v < depth.size(); ++v) {
     const double x = kSkin.points(v, 0);
-    if (x < 0) EXPECT_NEAR(depth[v], 0.008, 1e-7) << x;
-    if (x > 0.027) EXPECT_GT(depth[v], 0.0105) << "nearly that of the table: " << x;
+    if (x < 0) {
+      EXPECT_NEAR(depth[v], 0.008, 1e-7) << x;
+    }
+    if (x > 0.027) {
+      EXPECT_GT(depth[v], 0.0105) << "nearly that of the table: " << x;
+    }
     EXPECT_LT(depth[v], 0.012 + 1e-9);
   }
 }

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bones that a variant moves, end to end.
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/program.hpp"
+#include "hyperex/core/files.hpp"
+
+namespace hyperex {
+namespace {
+
+class Surgery : public ProgramTest {
+ protected:
+  void write(const std::string& variant, const std::string& more = "") {
+    std::ofstream(in("scene.toml"))
+        << "scan = { file = \"embedded\" }\nmotion = { arkit = \"" HYPEREX_SOURCE_DIR
+           "/examples/smile_arkit.csv\", time_scale = 0.25 }\n"
+           "mesh = { element_size_mm = 7 }\n"
+           "output = { vtu = false, glb = false, report = false, picture_times_s = [0] }\n"
+        << more << "[[variant]]\nname = \"advancement\"\n"
+        << variant << '\n';
+  }
+};
+
+TEST_F(Surgery, WritesMillimetresAndPicturesOfTheFaceAfterwards) {
+  write("bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]");
+  const Outcome outcome = call("run scene.toml --out out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out,
+              testing::ContainsRegex("advancement, at rest: chin [0-9.]+ mm \\([0-9.]+ of the bone; "
+                                     "published 0.80 to 1.33\\), lower lip"));
+  EXPECT_TRUE(std::filesystem::exists(in("out/variants/advancement/surgery.png")));
+  EXPECT_FALSE(std::filesystem::exists(in("out/surgery.csv")));
+  EXPECT_THAT(read_file(in("out/variants/advancement/surgery.csv")),
+              testing::StartsWith("landmark,rest_left_mm,rest_up_mm,rest_forward_mm,"));
+  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
+  const auto& row = summary["variants"]["table"][1];
+  EXPECT_EQ(row["inverted_tets"], 0);
+  EXPECT_LT(row["lip_overlap_mm"], 0.1) << "lips are kept apart";
+  double chin = 0, lip = 0;
+  for (const auto& one : row["surgery"]["landmarks"]) {
+    if (one["landmark"] == "pogonion") chin = one["soft_per_bone"];
+    if (one["landmark"] == "labiale_inferius") lip = one["soft_per_bone"];
+  }
+  EXPECT_GT(chin, 0.8);
+  EXPECT_LT(chin, 1.0);
+  EXPECT_GT(lip, 0.5);
+  EXPECT_LT(lip, 0.9);
+  // The excursion counts from the face at rest after surgery.
+  EXPECT_LT(row["commissure_L_from_base_mm"], 2);
+  // Again with the same options: an earlier run's folder is replaced.
+  EXPECT_EQ(call("run scene.toml --out out").status, 0);
+}
+
+TEST_F(Surgery, IsRefusedInOneSentence) {
+  const auto refused = [&](const std::string& variant, const std::string& more = "") {
+    write(variant, more);
+    const Outcome outcome = call("run scene.toml --out none");
+    EXPECT_EQ(outcome.status, 2);
+    EXPECT_FALSE(std::filesystem::exists(in("none")));
+    return outcome.err;
+  };
+  EXPECT_THAT(refused("bone = [{ part = \"jaw\", move_mm = [0, 0, 6] }]"),
+              testing::AllOf(testing::HasSubstr("surgery.bone[0].part"),
+                             testing::HasSubstr("\"skull\", \"maxilla\", \"mandible\" or \"chin\"")));
+  EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [6] }]"),
+              testing::HasSubstr("a list of 3 numbers, each from -30 to 30 (mm)"));
+  EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [0, 0, 60] }]"),
+              testing::HasSubstr("from -30 to 30"));
+  EXPECT_THAT(refused("bone = [{ part = \"mandible\", cut = \"le_fort_1\", move_mm = [0, 0, 6] }]"),
+              testing::HasSubstr("standard or bsso, or whole, for the mandible"));
+  EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]",
+                      "drive = { by = \"displacement\" }\n"),
+              testing::HasSubstr("drive.by = muscles or reactions"));
+}
+
+}  // namespace
+}  // namespace hyperex
