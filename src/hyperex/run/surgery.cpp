@@ -92,11 +92,11 @@ nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run) 
 }
 
 std::string surgery_lines(const nlohmann::ordered_json& summary) {
-  constexpr std::array kShown = {std::pair{"pogonion", "chin"},
+  constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {{{"pogonion", "chin"},
                                  {"labiale_inferius", "lower lip"},
                                  {"labiale_superius", "upper lip"},
                                  {"subnasale", "base of the nose"},
-                                 {"pronasale", "tip of the nose"}};
+                                 {"pronasale", "tip of the nose"}}};
   std::string lines;
   if (!summary.contains("variants")) return lines;
   for (const auto& row : summary["variants"]["table"]) {

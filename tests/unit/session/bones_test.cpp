@@ -36,17 +36,14 @@ frame_rate_hz = 5
 TriMesh estimated(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                   anatomy::Bone bone) {
   const std::vector<anatomy::Bone> under = simulate::bones_under(mesh, landmarks);
-  std::vector<Eigen::RowVector3i> kept;
-  for (Eigen::Index f = 0; f < mesh.volume.outer.triangles.rows(); ++f) {
-    const Eigen::RowVector3i t = mesh.volume.outer.triangles.row(f);
-    if (under[std::size_t(t[0])] == bone && under[std::size_t(t[1])] == bone &&
-        under[std::size_t(t[2])] == bone)
-      kept.push_back(t);
+  const Triangles& all = mesh.volume.outer.triangles;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+    bool over = true;
+    for (int k = 0; k < 3; ++k) over = over && under[std::size_t(all(f, k))] == bone;
+    if (over) kept.push_back(f);
   }
-  TriMesh out{mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()),
-              Triangles(Eigen::Index(kept.size()), 3)};
-  for (std::size_t i = 0; i < kept.size(); ++i) out.triangles.row(Eigen::Index(i)) = kept[i];
-  return out;
+  return {mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()), all(kept, Eigen::all)};
 }
 
 class OwnBones : public testing::Test {

@@ -92,16 +92,14 @@ TEST(NodeAreas, ShareOutTheSurface) {
 
 /// The inner surface over one bone.
 TriMesh inner_over(const tissue::TissueMesh& mesh, const std::vector<Bone>& under, Bone bone) {
-  TriMesh out{mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()), Triangles(0, 3)};
-  for (Eigen::Index f = 0; f < mesh.volume.outer.triangles.rows(); ++f) {
-    const Eigen::RowVector3i t = mesh.volume.outer.triangles.row(f);
-    if (under[std::size_t(t[0])] != bone || under[std::size_t(t[1])] != bone ||
-        under[std::size_t(t[2])] != bone)
-      continue;
-    out.triangles.conservativeResize(out.triangles.rows() + 1, 3);
-    out.triangles.bottomRows(1) = t;
+  const Triangles& all = mesh.volume.outer.triangles;
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index f = 0; f < all.rows(); ++f) {
+    bool over = true;
+    for (int k = 0; k < 3; ++k) over = over && under[std::size_t(all(f, k))] == bone;
+    if (over) kept.push_back(f);
   }
-  return out;
+  return {mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()), all(kept, Eigen::all)};
 }
 
 TEST(BonesUnder, AreThoseThatAreGivenWhereTissueIsAttached) {
