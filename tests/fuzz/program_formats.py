@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table of formats of mutate_program.py: what is changed, what lies beside it, who reads it."""
+import gzip
 import json
 import os
 import zipfile
 
+import program_ct as ct
 from program_seeds import (COARSE, CORNERS, SCENE, Format, avi, face_of, glb, gltf, gltf_parts, landmarks_of, obj,
                            ply_ascii, ply_binary, png, read, recording_of, scan_calls, stl, trc, zipped)
 
@@ -228,6 +230,32 @@ class Table:
         self.add("run_skin", "out/skin_peak.ply", [run["out/skin_peak.ply"]], [
             ["compare", "out/skin_peak.ply", "out/skin_peak.ply", "--corresponding", "--json"]], run)
 
+    def scanners(self):
+        values, labels = ct.head()
+        slices = {"series/" + name: data for name, data in ct.series(values).items()}
+        volume, bones = {"head.nrrd": ct.nrrd(values)}, [ct.blocks(labels, one) for one in (ct.SKULL, ct.MANDIBLE)]
+
+        def calls(name, *more):
+            return [["ct", name, "--out", "out", *more]]
+        self.add("ct_slice", "series/15.dcm", [ct.dicom(values, 15, way) for way in (
+            ct.EXPLICIT, ct.IMPLICIT, ct.RUN_LENGTHS, ct.LOSSLESS_JPEG)], calls("series") * 3 + calls(
+                "series", "--seed-skull", "0,45,-6", "--seed-mandible", "0,-31,28"), slices)
+        self.add("ct_zip", "in.zip", [zipped(slices, way) for way in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)],
+                 calls("in.zip"), {"tmp/in_use": b""})
+        for name, file, seeds in (
+                ("ct_nrrd", "in.nrrd", [ct.nrrd(values, way) for way in ("raw", "ascii", "gzip")]),
+                ("ct_nifti", "in.nii", [ct.nifti(values)]),
+                ("ct_nifti_gz", "in.nii.gz", [gzip.compress(ct.nifti(values), mtime=0)])):
+            self.add(name, file, seeds, calls(file) + calls(file, "--skin-hu", "-400", "--bone-hu", "250"))
+        self.add("ct_labels", "labels.nrrd", [ct.nrrd(labels, way) for way in ("raw", "gzip")],
+                 calls("head.nrrd", "--labels", "labels.nrrd"), volume)
+        self.add("ct_labels_nifti", "labels.nii", [ct.nifti(labels)], calls("head.nrrd", "--labels", "labels.nii"), volume)
+        own = {**volume, "mandible.ply": ply_binary(*bones[1])}
+        for file, seeds in (("skull.stl", [stl(*bones[0], text) for text in (True, False)]),
+                            ("skull.ply", [ply_ascii(*bones[0]), ply_binary(*bones[0])])):
+            self.add("ct_bones_" + file[-3:], file, seeds, calls(
+                "head.nrrd", "--skull", file, "--mandible", "mandible.ply"), own)
+
     def kept(self):
         cache = os.path.join(self.made, "cache", "hyperex")
         for kind in ("face-", "completed-", "order-"):
@@ -250,7 +278,7 @@ class Table:
 
 def formats(made):
     table = Table(made)
-    for part in (table.scans, table.points, table.texts, table.fields, table.recordings, table.models, table.kept,
-                 table.studio):
+    for part in (table.scans, table.points, table.texts, table.fields, table.recordings, table.models, table.scanners,
+                 table.kept, table.studio):
         part()
     return {one.name: one for one in table.all}
