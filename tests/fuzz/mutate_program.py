@@ -273,6 +273,8 @@ class Runner:
             if kind.name in ("studio_zip", "studio_recording"):
                 fields = {"what": "current", "recording": name}
             answer = studio.ask("open", **fields)
+            if kind.name == "studio_recording" and "error" not in answer:
+                studio.ask("compare_visits", name=f"visits_{number}", expression="smile")
         return f"sound, but {answer['error']}" if self.sound and answer and "error" in answer else ""
 
     @staticmethod

@@ -44,10 +44,15 @@ STUDY = (b'title = "s"\nscene = "s.toml"\nout = "swept"\n[set]\nmesh.element_siz
 CASES = b"case,tissue.young_kpa,drive.by,output.vtu\nsoft,50,displacement,false\nstiff,400,,false\n"
 VISITS = (b'patient = "P-017"\nexpression = "smile"\nrepetition_mm = 1.5\nrigid_points = ["exocanthion_R", "exocanthion_L",'
           b' "nasion"]\n[[visit]]\ndate = 2026-03-01\nrecording = "in.csv"\nnote = "before"\njitter_mm = 0.2\n'
-          b'[[visit]]\ndate = "later"\nrecordings = ["in.csv", "in.trc"]\nend_s = 1\n')
+          b'[[visit]]\ndate = "later"\nrecordings = ["later.csv", "in.trc"]\nend_s = 1\n')
 MUSCLES = (b'[[muscle]]\nname = "graft"\nlatin = "temporalis transfer"\npath = ["45 (12, 5) d1", "54 (1, 1) d0.4"]\n'
            b'width_mm = 8\nstraight = true\n[[muscle]]\nname = "zyg_major"\nlatin = "z"\nbranch = "zygomatic"\n'
            b'group = "lip corner elevators"\npath = ["0.6*45 + 0.4*54 (22, 0) d1", "54 (13, 2) d0.3"]\nwidth_mm = 7\n')
+SCANNED_VISITS = (
+    b'unit = "mm"\nexpression = "mouth open"\n[[visit]]\ndate = 2026-03-01\nrecording = "in.csv"\njitter_mm = 0\n'
+    b'rest_scan = "face.ply"\nrest_landmarks = "l.json"\n[[visit]]\ndate = 2026-06-01\nrecording = "in.trc"\n'
+    b'jitter_mm = 0.3\nrest_scan = "face.ply"\nrest_landmarks = "l.json"\npeak_scan = "face.ply"\n'
+    b'peak_landmarks = "l.json"\n')
 REQUESTS = [
     {"do": "open", "what": "started"}, {"do": "undo"}, {"do": "redo"},
     {"do": "set", "changes": {"tissue.young_kpa": 150, "muscles.gain": {"zyg_major_R": .3}}, "face": 0, "live": False,
@@ -60,6 +65,7 @@ REQUESTS = [
     {"do": "region_shares", "region": {"name": "cheek_R"}, "key": "k"},
     {"do": "region_shares", "region": {"scar": ["cheek_R", "cheilion_R"], "width_mm": 5}, "key": "k"},
     {"do": "move_landmark", "name": "cheek_R", "position": [.01, .02, .05]}, {"do": "landmarks_done"},
+    {"do": "compare_visits", "name": "v", "expression": "smile"}, {"do": "live_start", "what": "recording", "face": 0},
     {"do": "live_stop"}, {"do": "live_neutral"}, {"do": "live_record", "on": True},
     {"do": "live_drawn", "frame": 3}, {"do": "live_take", "from_s": 0, "to_s": 1},
     {"do": "free_name", "name": "mine"}, {"do": "save", "what": "scene", "name": "mine"},
@@ -87,7 +93,8 @@ class Table:
         self.truth = {n: b"\n".join(read(recording, n).split(b"\n")[:4]) + b"\n" for n in os.listdir(recording) if n.startswith("truth_")}
         self.colour = next(v for k, v in self.recording.items() if k.startswith("rgb/"))
         self.base = {"s.toml": SCENE, "l.json": json.dumps(self.landmarks).encode(), "face.ply": ply_binary(*self.face),
-                     "sound.ply": ply_ascii(*self.quad), "in.csv": self.csv, "in.trc": trc(self.csv)}
+                     "sound.ply": ply_ascii(*self.quad), "in.csv": self.csv, "later.csv": self.csv,
+                     "in.trc": trc(self.csv)}
 
     def add(self, name, file, seeds, calls, beside=None):
         self.all.append(Format(name, file, seeds, calls, {**self.base, **(beside or {})}))
@@ -159,7 +166,14 @@ class Table:
             ["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--collect"]], {"cases.csv": CASES})
         self.add("cases", "cases.csv", [CASES], [["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--snakemake"]],
                  {"in.toml": b'scene = "s.toml"\ncases = "cases.csv"\n'})
-        self.add("visits", "in.toml", [VISITS], [["visits", "in.toml", "--out", "v.html", "--table", "v.csv"]])
+        self.add("visits", "in.toml", [VISITS, SCANNED_VISITS], [
+            ["visits", "in.toml", "--out", "v.html", "--table", "v.csv"]])
+        asks = (["--stiffness", "cheek_L:cheek_R"], ["--gain", "zygomatic_R"])
+        self.add("estimate", "in.toml", [SCENE, SCENE + b'drive.points = ["ibug68_48", "ibug68_54", "ibug68_8"]\n'], [
+            ["estimate", "in.toml", *one, *COARSE, "--out", "o.json"] for one in asks])
+        self.add("estimate_recording", "e.csv", [self.csv], [
+            ["estimate", "s.toml", *one, *COARSE, "--out", "o.json"] for one in (
+                ["--recording", "e.csv", *asks[0]], ["--lying", "e.csv"], ["--weight", "e.csv:cheilion_R:20"])])
         self.add("muscles", "m.toml", [MUSCLES], [
             ["check", "s.toml", "--set", "muscles.file=m.toml"],
             ["run", "s.toml", "--out", "out", "--set", "drive.by=muscles", "--set", "muscles.file=m.toml", *COARSE]])
@@ -212,6 +226,8 @@ class Table:
         names = ["jawOpen", "mouthSmileLeft", "mouthSmileRight", "eyeBlinkLeft"]
         own = ["--set", "motion.arkit=w.csv", "--set", "motion.rig=in.glb"]
         rig = gltf_parts(*self.face, names, points)
+        self.add("rigged", "l.json", [json.dumps(self.landmarks).encode()], [
+            ["rig", "face.ply", "--landmarks", "l.json", "--out", "r.glb", *COARSE[:4]]])
         self.add("rig", "in.glb", [glb(rig), glb(gltf_parts(*self.quad, names, points))], [
             ["symmetry", "w.csv", "--rig", "in.glb"], ["check", "w.toml", *own],
             ["run", "w.toml", "--out", "out", *own, *COARSE]], {"w.csv": ARKIT, "w.toml": b'scan.file = "embedded"\n', "skin.png": png()})
