@@ -159,6 +159,8 @@ class Runner:
         before = files_in(folder)
         own = {**self.environment, "XDG_CACHE_HOME": str(folder / "cache")} if kind.name.startswith("kept") \
             else self.environment
+        if kind.name == "ct_zip":  # what is unpacked must not stay
+            own = {**own, "TMPDIR": str(folder / "tmp")}
         start = resource.getrusage(resource.RUSAGE_CHILDREN).ru_utime
         try:
             done = subprocess.run([self.program, *call], cwd=folder, env=own, stdin=subprocess.DEVNULL,
@@ -191,7 +193,8 @@ class Runner:
         if hidden := [n for n in new if any(part.startswith(".") for part in n.split("/"))]:
             return "left over: " + ", ".join(hidden)
         if status == 0:
-            return number_fault(folder) if call[0] == "run" else ""
+            left = [n for n in new if n.startswith("tmp/")]
+            return "left over: " + ", ".join(left) if left else number_fault(folder) if call[0] in ("run", "ct") else ""
         left = [n for n in new if not n.startswith("cache/")]
         if left and call[0] != "sweep":
             return f"status {status}, yet left: " + ", ".join(left[:9])
@@ -270,6 +273,8 @@ class Runner:
             if kind.name in ("studio_zip", "studio_recording"):
                 fields = {"what": "current", "recording": name}
             answer = studio.ask("open", **fields)
+            if kind.name == "studio_recording" and "error" not in answer:
+                studio.ask("compare_visits", name=f"visits_{number}", expression="smile")
         return f"sound, but {answer['error']}" if self.sound and answer and "error" in answer else ""
 
     @staticmethod

@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The table of formats of mutate_program.py: what is changed, what lies beside it, who reads it."""
+import gzip
 import json
 import os
 import zipfile
 
+import program_ct as ct
 from program_seeds import (COARSE, CORNERS, SCENE, Format, avi, face_of, glb, gltf, gltf_parts, landmarks_of, obj,
                            ply_ascii, ply_binary, png, read, recording_of, scan_calls, stl, trc, zipped)
 
@@ -42,10 +44,15 @@ STUDY = (b'title = "s"\nscene = "s.toml"\nout = "swept"\n[set]\nmesh.element_siz
 CASES = b"case,tissue.young_kpa,drive.by,output.vtu\nsoft,50,displacement,false\nstiff,400,,false\n"
 VISITS = (b'patient = "P-017"\nexpression = "smile"\nrepetition_mm = 1.5\nrigid_points = ["exocanthion_R", "exocanthion_L",'
           b' "nasion"]\n[[visit]]\ndate = 2026-03-01\nrecording = "in.csv"\nnote = "before"\njitter_mm = 0.2\n'
-          b'[[visit]]\ndate = "later"\nrecordings = ["in.csv", "in.trc"]\nend_s = 1\n')
+          b'[[visit]]\ndate = "later"\nrecordings = ["later.csv", "in.trc"]\nend_s = 1\n')
 MUSCLES = (b'[[muscle]]\nname = "graft"\nlatin = "temporalis transfer"\npath = ["45 (12, 5) d1", "54 (1, 1) d0.4"]\n'
            b'width_mm = 8\nstraight = true\n[[muscle]]\nname = "zyg_major"\nlatin = "z"\nbranch = "zygomatic"\n'
            b'group = "lip corner elevators"\npath = ["0.6*45 + 0.4*54 (22, 0) d1", "54 (13, 2) d0.3"]\nwidth_mm = 7\n')
+SCANNED_VISITS = (
+    b'unit = "mm"\nexpression = "mouth open"\n[[visit]]\ndate = 2026-03-01\nrecording = "in.csv"\njitter_mm = 0\n'
+    b'rest_scan = "face.ply"\nrest_landmarks = "l.json"\n[[visit]]\ndate = 2026-06-01\nrecording = "in.trc"\n'
+    b'jitter_mm = 0.3\nrest_scan = "face.ply"\nrest_landmarks = "l.json"\npeak_scan = "face.ply"\n'
+    b'peak_landmarks = "l.json"\n')
 REQUESTS = [
     {"do": "open", "what": "started"}, {"do": "undo"}, {"do": "redo"},
     {"do": "set", "changes": {"tissue.young_kpa": 150, "muscles.gain": {"zyg_major_R": .3}}, "face": 0, "live": False,
@@ -58,6 +65,7 @@ REQUESTS = [
     {"do": "region_shares", "region": {"name": "cheek_R"}, "key": "k"},
     {"do": "region_shares", "region": {"scar": ["cheek_R", "cheilion_R"], "width_mm": 5}, "key": "k"},
     {"do": "move_landmark", "name": "cheek_R", "position": [.01, .02, .05]}, {"do": "landmarks_done"},
+    {"do": "compare_visits", "name": "v", "expression": "smile"}, {"do": "live_start", "what": "recording", "face": 0},
     {"do": "live_stop"}, {"do": "live_neutral"}, {"do": "live_record", "on": True},
     {"do": "live_drawn", "frame": 3}, {"do": "live_take", "from_s": 0, "to_s": 1},
     {"do": "free_name", "name": "mine"}, {"do": "save", "what": "scene", "name": "mine"},
@@ -85,7 +93,8 @@ class Table:
         self.truth = {n: b"\n".join(read(recording, n).split(b"\n")[:4]) + b"\n" for n in os.listdir(recording) if n.startswith("truth_")}
         self.colour = next(v for k, v in self.recording.items() if k.startswith("rgb/"))
         self.base = {"s.toml": SCENE, "l.json": json.dumps(self.landmarks).encode(), "face.ply": ply_binary(*self.face),
-                     "sound.ply": ply_ascii(*self.quad), "in.csv": self.csv, "in.trc": trc(self.csv)}
+                     "sound.ply": ply_ascii(*self.quad), "in.csv": self.csv, "later.csv": self.csv,
+                     "in.trc": trc(self.csv)}
 
     def add(self, name, file, seeds, calls, beside=None):
         self.all.append(Format(name, file, seeds, calls, {**self.base, **(beside or {})}))
@@ -157,7 +166,14 @@ class Table:
             ["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--collect"]], {"cases.csv": CASES})
         self.add("cases", "cases.csv", [CASES], [["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--snakemake"]],
                  {"in.toml": b'scene = "s.toml"\ncases = "cases.csv"\n'})
-        self.add("visits", "in.toml", [VISITS], [["visits", "in.toml", "--out", "v.html", "--table", "v.csv"]])
+        self.add("visits", "in.toml", [VISITS, SCANNED_VISITS], [
+            ["visits", "in.toml", "--out", "v.html", "--table", "v.csv"]])
+        asks = (["--stiffness", "cheek_L:cheek_R"], ["--gain", "zygomatic_R"])
+        self.add("estimate", "in.toml", [SCENE, SCENE + b'drive.points = ["ibug68_48", "ibug68_54", "ibug68_8"]\n'], [
+            ["estimate", "in.toml", *one, *COARSE, "--out", "o.json"] for one in asks])
+        self.add("estimate_recording", "e.csv", [self.csv], [
+            ["estimate", "s.toml", *one, *COARSE, "--out", "o.json"] for one in (
+                ["--recording", "e.csv", *asks[0]], ["--lying", "e.csv"], ["--weight", "e.csv:cheilion_R:20"])])
         self.add("muscles", "m.toml", [MUSCLES], [
             ["check", "s.toml", "--set", "muscles.file=m.toml"],
             ["run", "s.toml", "--out", "out", "--set", "drive.by=muscles", "--set", "muscles.file=m.toml", *COARSE]])
@@ -210,6 +226,8 @@ class Table:
         names = ["jawOpen", "mouthSmileLeft", "mouthSmileRight", "eyeBlinkLeft"]
         own = ["--set", "motion.arkit=w.csv", "--set", "motion.rig=in.glb"]
         rig = gltf_parts(*self.face, names, points)
+        self.add("rigged", "l.json", [json.dumps(self.landmarks).encode()], [
+            ["rig", "face.ply", "--landmarks", "l.json", "--out", "r.glb", *COARSE[:4]]])
         self.add("rig", "in.glb", [glb(rig), glb(gltf_parts(*self.quad, names, points))], [
             ["symmetry", "w.csv", "--rig", "in.glb"], ["check", "w.toml", *own],
             ["run", "w.toml", "--out", "out", *own, *COARSE]], {"w.csv": ARKIT, "w.toml": b'scan.file = "embedded"\n', "skin.png": png()})
@@ -227,6 +245,32 @@ class Table:
             ["symmetry", "out"], ["run", "s.toml", "--out", "out", *COARSE]], run)
         self.add("run_skin", "out/skin_peak.ply", [run["out/skin_peak.ply"]], [
             ["compare", "out/skin_peak.ply", "out/skin_peak.ply", "--corresponding", "--json"]], run)
+
+    def scanners(self):
+        values, labels = ct.head()
+        slices = {"series/" + name: data for name, data in ct.series(values).items()}
+        volume, bones = {"head.nrrd": ct.nrrd(values)}, [ct.blocks(labels, one) for one in (ct.SKULL, ct.MANDIBLE)]
+
+        def calls(name, *more):
+            return [["ct", name, "--out", "out", *more]]
+        self.add("ct_slice", "series/15.dcm", [ct.dicom(values, 15, way) for way in (
+            ct.EXPLICIT, ct.IMPLICIT, ct.RUN_LENGTHS, ct.LOSSLESS_JPEG)], calls("series") * 3 + calls(
+                "series", "--seed-skull", "0,45,-6", "--seed-mandible", "0,-31,28"), slices)
+        self.add("ct_zip", "in.zip", [zipped(slices, way) for way in (zipfile.ZIP_STORED, zipfile.ZIP_DEFLATED)],
+                 calls("in.zip"), {"tmp/in_use": b""})
+        for name, file, seeds in (
+                ("ct_nrrd", "in.nrrd", [ct.nrrd(values, way) for way in ("raw", "ascii", "gzip")]),
+                ("ct_nifti", "in.nii", [ct.nifti(values)]),
+                ("ct_nifti_gz", "in.nii.gz", [gzip.compress(ct.nifti(values), mtime=0)])):
+            self.add(name, file, seeds, calls(file) + calls(file, "--skin-hu", "-400", "--bone-hu", "250"))
+        self.add("ct_labels", "labels.nrrd", [ct.nrrd(labels, way) for way in ("raw", "gzip")],
+                 calls("head.nrrd", "--labels", "labels.nrrd"), volume)
+        self.add("ct_labels_nifti", "labels.nii", [ct.nifti(labels)], calls("head.nrrd", "--labels", "labels.nii"), volume)
+        own = {**volume, "mandible.ply": ply_binary(*bones[1])}
+        for file, seeds in (("skull.stl", [stl(*bones[0], text) for text in (True, False)]),
+                            ("skull.ply", [ply_ascii(*bones[0]), ply_binary(*bones[0])])):
+            self.add("ct_bones_" + file[-3:], file, seeds, calls(
+                "head.nrrd", "--skull", file, "--mandible", "mandible.ply"), own)
 
     def kept(self):
         cache = os.path.join(self.made, "cache", "hyperex")
@@ -250,7 +294,7 @@ class Table:
 
 def formats(made):
     table = Table(made)
-    for part in (table.scans, table.points, table.texts, table.fields, table.recordings, table.models, table.kept,
-                 table.studio):
+    for part in (table.scans, table.points, table.texts, table.fields, table.recordings, table.models, table.scanners,
+                 table.kept, table.studio):
         part()
     return {one.name: one for one in table.all}

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/made_ct.hpp"
 
+#include <gdcmImageChangeTransferSyntax.h>
 #include <gdcmImageWriter.h>
 #include <gdcmTrace.h>
 #include <itkImage.h>
@@ -83,6 +84,13 @@ void write_slice(const fs::path& file, const ct::Volume& volume, int plane, cons
   data.SetByteValue(reinterpret_cast<const char*>(pixels.data()),
                     gdcm::VL(std::uint32_t(2 * pixels.size())));
   image.SetDataElement(data);
+  if (tags.as_jpeg) {
+    gdcm::ImageChangeTransferSyntax change;
+    change.SetTransferSyntax(gdcm::TransferSyntax::JPEGLosslessProcess14_1);
+    change.SetInput(image);
+    if (!change.Change()) throw std::runtime_error("no JPEG can be made");
+    writer.SetImage(change.GetOutput());
+  }
   gdcm::DataSet& set = writer.GetFile().GetDataSet();
   const bool is_ct = tags.modality == "CT";
   put(set, 0x0008, 0x0008, gdcm::VR::CS, "ORIGINAL\\PRIMARY\\AXIAL");

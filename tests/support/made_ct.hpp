@@ -41,6 +41,7 @@ struct DicomTags {
   std::string modality = "CT", series_uid = "1.2.3.4.5", study_uid = "1.2.3.4";
   int series_number = 1;
   double intercept = -1024, slope = 1;
+  bool as_jpeg = false;  ///< lossless
 };
 
 /// Writes each plane of the third index as a file IM0001.dcm ..., in an order that is not that of

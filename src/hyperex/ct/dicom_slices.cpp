@@ -17,6 +17,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/ct/dicom_structure.hpp"
 #include "hyperex/ct/itk_library.hpp"
+#include "hyperex/ct/read_in_child.hpp"
 
 namespace hyperex::ct {
 namespace {
@@ -41,7 +42,8 @@ constexpr std::array<DicomTag, 11> kPrivate = {{{0x0010, 0x0010},
                                                 {0x0020, 0x000d},
                                                 {0x0020, 0x000e}}};
 constexpr DicomTag kPatient = kPrivate[0];
-constexpr std::size_t kLeastWord = 3;  // bytes, that are looked for within other words
+constexpr double kMostNumber = 2147483647;  // of a series, as DICOM has it
+constexpr std::size_t kLeastWord = 3;       // bytes, that are looked for within other words
 
 const std::vector<DicomTag>& all_tags() {
   static const std::vector<DicomTag> all = [] {
@@ -91,6 +93,7 @@ class Header {
     return number;
   }
   bool has_picture() const { return values_.has_picture; }
+  bool is_compressed() const { return values_.compressed; }
   /// Uncompressed, the picture has a known number of bytes.
   bool has_wrong_length() const {
     return !values_.compressed && values_.picture_bytes < std::size_t(2) *
@@ -194,7 +197,8 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
   slice.modality = header.text(kModality);
   slice.series = header.text(kSeries);
   if (const auto number = header.numbers(kSeriesNumber); number.size() == 1)
-    slice.series_number = int(number[0]);
+    slice.series_number = int(std::clamp(number[0], -kMostNumber, kMostNumber));
+  slice.compressed = header.is_compressed();
   slice.survey = header.text(kImageType).find("LOCALIZER") != std::string::npos;
   // A report, a list of files: a picture of no kind.
   slice.other = !slice.modality.empty() && slice.modality != "CT" && !header.has_picture();
@@ -278,7 +282,8 @@ std::string DicomFolder::shown(const fs::path& path) const {
 void read_pixels(const DicomSlice& slice, float* to) {
   const std::string whole = without_padding(read_file(slice.file));
   std::optional<DicomPixels> read;
-  if (fault_of_dicom(whole).empty()) read = itk_library().pixels_of(whole);
+  if (fault_of_dicom(whole).empty())
+    read = slice.compressed ? pixels_in_child(whole) : itk_library().pixels_of(whole);
   if (!read || read->columns != slice.place.columns || read->rows != slice.place.rows)
     throw InputError(slice.name +
                      ": its pixels are damaged or of a kind that GDCM does not read; expected a "

@@ -18,7 +18,8 @@ struct DicomSlice {
   std::string modality;
   bool other = false;   ///< no picture of any kind
   bool survey = false;  ///< a localizer
-  std::string fault;    ///< why it cannot be used; empty where it can
+  bool compressed = false;
+  std::string fault;  ///< why it cannot be used; empty where it can
   SlicePlace place;
 };
 

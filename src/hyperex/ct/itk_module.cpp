@@ -109,6 +109,8 @@ class Module final : public ItkLibrary {
                                out.bytes.size() == std::size_t(2) * out.columns * out.rows;
       if (!as_expected || !image.GetBuffer(out.bytes.data())) return std::nullopt;
       return out;
+    } catch (const std::bad_alloc&) {
+      throw;
     } catch (const std::exception&) {
       return std::nullopt;
     }

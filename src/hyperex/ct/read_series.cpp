@@ -108,6 +108,10 @@ SeriesVolume read_folder(const fs::path& folder, const fs::path& source,
     places.push_back(slice->place);
   }
   const SliceStack stack = order_slices(places, shown);
+  if (!stack.grid.is_possible())
+    throw InputError(shown +
+                     ": its slices state impossible places or pixel sizes; expected steps of 0.01 "
+                     "to 100 mm, no more than 5 m in all");
   SeriesVolume out;
   out.kind = "DICOM";
   out.shown = shown;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <fstream>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
-#include "hyperex/ct/itk_library.hpp"
+#include "hyperex/ct/read_in_child.hpp"
 #include "hyperex/ct/read_series.hpp"
 
 namespace hyperex::ct {
@@ -17,6 +20,18 @@ bool is_nrrd(const std::string& name) {
   return name.ends_with(".nrrd") || name.ends_with(".nhdr");
 }
 
+/// ITK copies these lines into arrays of about 800 bytes. Remarks and values of keys may be long.
+constexpr std::size_t kLongestLine = 600;
+
+void check_header_lines(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  std::string line;
+  for (int number = 1; std::getline(in, line) && !line.empty() && line != "\r"; ++number)
+    if (line.size() > kLongestLine && !line.starts_with('#') && line.find(":=") >= line.find(": "))
+      throw InputError({file, number, "", std::to_string(line.size()) + " characters",
+                        fmt::format("a line of an NRRD header, of at most {}", kLongestLine)});
+}
+
 }  // namespace
 
 bool is_volume_file(const fs::path& file) {
@@ -26,8 +41,9 @@ bool is_volume_file(const fs::path& file) {
 
 Volume read_volume_file(const fs::path& file) {
   if (!fs::is_regular_file(file)) throw InputError(file, "no such file");
-  auto read =
-      itk_library().read_volume(file.string(), is_nifti(lower_case(file.filename().string())));
+  const bool nifti = is_nifti(lower_case(file.filename().string()));
+  if (!nifti) check_header_lines(file);
+  auto read = volume_in_child(file.string(), nifti);
   if (!read)
     throw InputError(file, "damaged, cut off, or no NIfTI or NRRD file; expected a volume");
   if (read->dimensions != 3 || read->components != 1)
@@ -40,8 +56,10 @@ Volume read_volume_file(const fs::path& file) {
       step_mm(Eigen::Index(r), Eigen::Index(a)) = read->direction[r][a] * read->grid.spacing_mm[a];
   out.origin_m = face_from_patient() * Eigen::Map<const Vec3>(read->origin_mm.data()) * 1e-3;
   out.step_m = face_from_patient() * step_mm * 1e-3;
-  if (!(out.voxel_m3() > 0) || *std::min_element(out.size.begin(), out.size.end()) < 2)
-    throw InputError(file, "expected steps above 0 and at least two values along each axis");
+  if (!out.is_possible() || *std::min_element(out.size.begin(), out.size.end()) < 2)
+    throw InputError(file,
+                     "states an impossible place or steps; expected steps of 0.01 to 100 mm, no "
+                     "more than 5 m in all, and at least two values along each axis");
   out.hu = std::move(read->values);
   return out;
 }

@@ -6,6 +6,11 @@
 
 namespace hyperex::ct {
 
+namespace {
+constexpr double kLeastStep_m = 1e-5, kMostStep_m = 0.1, kMostReach_m = 5, kMostPlace_m = 100;
+constexpr double kLeastSolid = 0.1;  // of the voxel that steps at right angles would make
+}  // namespace
+
 Eigen::Matrix3d face_from_patient() {
   Eigen::Matrix3d rows;
   rows << 1, 0, 0, 0, 0, 1, 0, -1, 0;
@@ -48,6 +53,14 @@ int Volume::upward_axis() const {
   Eigen::RowVector3d up = step_m.row(1).cwiseAbs().cwiseQuotient(step_m.colwise().norm());
   up.maxCoeff(&best);
   return best;
+}
+
+bool Volume::is_possible() const {
+  if (!step_m.allFinite() || !origin_m.allFinite()) return false;
+  const Vec3 step = spacing_m(), reach = step.cwiseProduct(Vec3(size[0], size[1], size[2]));
+  return step.minCoeff() >= kLeastStep_m && step.maxCoeff() <= kMostStep_m &&
+         reach.maxCoeff() <= kMostReach_m && origin_m.norm() <= kMostPlace_m &&
+         voxel_m3() >= kLeastSolid * step.prod();
 }
 
 }  // namespace hyperex::ct

@@ -34,6 +34,9 @@ struct Volume {
   double sample(const Vec3& place_m) const;
   /// The index that runs most nearly upwards in the patient, 0 to 2.
   int upward_axis() const;
+  /// Whether a scanner may give this grid: steps of 0.01 to 100 mm that do not lie in a plane, no
+  /// more than 5 m in all, within 100 m of the origin.
+  bool is_possible() const;
 };
 
 /// One flag or number per value of a Volume, in its order.

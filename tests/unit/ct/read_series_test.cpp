@@ -244,5 +244,68 @@ TEST_F(ReadSeries, RefusesAScaleThatGivesNoHounsfieldUnits) {
   }
 }
 
+TEST_F(ReadSeries, OutlivesPixelsThatEndGdcm) {
+  const Volume made = ten_slices();
+  test::DicomTags tags;
+  tags.as_jpeg = true;
+  test::write_dicom(in("ct"), made, tags);
+  expect_same(read_series(in("ct")).volume, made);
+  const fs::path file = in("ct") / "IM0004.dcm";
+  const std::string whole = read_file(file);
+  const auto frame = whole.find("\xff\xd8\xff\xc3");
+  ASSERT_NE(frame, std::string::npos);
+  int refusals = 0;
+  for (std::size_t at = frame + 2; at < frame + 60; ++at) {
+    std::string wrong = whole;
+    wrong[at] = 'R';
+    std::ofstream(file, std::ios::binary) << wrong;
+    if (const std::string why = refused(in("ct")); !why.empty()) {
+      EXPECT_THAT(why, HasSubstr("IM0004.dcm")) << at;
+      ++refusals;
+    }
+  }
+  EXPECT_GT(refusals, 20);
+}
+
+TEST_F(ReadSeries, RefusesLongLinesOfAnNrrdHeader) {
+  const Volume made = ten_slices();
+  test::write_volume(in("ct.nrrd"), made);
+  const std::string whole = read_file(in("ct.nrrd"));
+  const auto with_line = [&](const std::string& line) {
+    std::string out = whole;
+    out.insert(out.find('\n') + 1, line + '\n');
+    std::ofstream(in("ct.nrrd"), std::ios::binary) << out;
+  };
+  const std::string much(5000, '3');
+  for (const std::string& begin :
+       {"", "sizes: ", "space units: \"", "encoding: :=", "data file: "}) {
+    with_line(begin + much);
+    EXPECT_THAT(refused(in("ct.nrrd")), HasSubstr("ct.nrrd:2: ")) << begin;
+  }
+  for (const std::string& begin : {"# ", "a key:=", "a key:=with: "}) {
+    with_line(begin + much);
+    expect_same(read_series(in("ct.nrrd")).volume, made);
+  }
+}
+
+TEST_F(ReadSeries, RefusesGridsThatNoScannerGives) {
+  test::write_volume(in("ct.nrrd"), ten_slices());
+  const std::string whole = read_file(in("ct.nrrd"));
+  const auto at = whole.find("space directions: "), end = whole.find('\n', at);
+  ASSERT_NE(at, std::string::npos);
+  for (const char* sides :
+       {"(1e30,0,0) (0,5,0) (0,0,3)", "(4,0,0) (0,1e-9,0) (0,0,3)", "(4,0,0) (0,5,0) (0,5,1e-3)",
+        "(4,0,0) (0,5,0) (0,0,600)", "(4,0,0) (0,5,0) (0,0,inf)"}) {
+    std::string wrong = whole;
+    wrong.replace(at, end - at, "space directions: " + std::string(sides));
+    std::ofstream(in("ct.nrrd"), std::ios::binary) << wrong;
+    EXPECT_NE(refused(in("ct.nrrd")), "") << sides;
+  }
+  Volume far = ten_slices();
+  far.step_m.col(0) *= 200;
+  test::write_dicom(in("ct"), far);
+  EXPECT_THAT(refused(in("ct")), HasSubstr("impossible places or pixel sizes"));
+}
+
 }  // namespace
 }  // namespace hyperex::ct
