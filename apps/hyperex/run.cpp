@@ -15,8 +15,8 @@
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/run/corner_words.hpp"
-#include "hyperex/run/surgery.hpp"
 #include "hyperex/run/run_scene.hpp"
+#include "hyperex/run/surgery.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -84,8 +84,8 @@ void run(const RunOptions& options) {
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), run::surgery_lines(summary), uncertainty_line(summary), budget_lines(summary),
-      printable(options.out->string()));
+      run::variant_lines(summary), run::surgery_lines(summary), uncertainty_line(summary),
+      budget_lines(summary), printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

@@ -28,9 +28,9 @@ TEST_F(Surgery, WritesMillimetresAndPicturesOfTheFaceAfterwards) {
   write("bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]");
   const Outcome outcome = call("run scene.toml --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
-  EXPECT_THAT(outcome.out,
-              testing::ContainsRegex("advancement, at rest: chin [0-9.]+ mm \\([0-9.]+ of the bone; "
-                                     "published 0.80 to 1.33\\), lower lip"));
+  EXPECT_THAT(outcome.out, testing::ContainsRegex(
+                               "advancement, at rest: chin [0-9.]+ mm \\([0-9.]+ of the bone; "
+                               "published 0.80 to 1.33\\), lower lip"));
   EXPECT_TRUE(std::filesystem::exists(in("out/variants/advancement/surgery.png")));
   EXPECT_FALSE(std::filesystem::exists(in("out/surgery.csv")));
   EXPECT_THAT(read_file(in("out/variants/advancement/surgery.csv")),
@@ -45,11 +45,11 @@ TEST_F(Surgery, WritesMillimetresAndPicturesOfTheFaceAfterwards) {
     if (one["landmark"] == "labiale_inferius") lip = one["soft_per_bone"];
   }
   EXPECT_GT(chin, 0.8);
-  EXPECT_LT(chin, 1.0);
+  EXPECT_LT(chin, 1.1);
   EXPECT_GT(lip, 0.5);
   EXPECT_LT(lip, 0.9);
   // The excursion counts from the face at rest after surgery.
-  EXPECT_LT(row["commissure_L_from_base_mm"], 2);
+  EXPECT_LT(row["commissure_L_from_base_mm"], 3);
   // Again with the same options: an earlier run's folder is replaced.
   EXPECT_EQ(call("run scene.toml --out out").status, 0);
 }
@@ -62,9 +62,10 @@ TEST_F(Surgery, IsRefusedInOneSentence) {
     EXPECT_FALSE(std::filesystem::exists(in("none")));
     return outcome.err;
   };
-  EXPECT_THAT(refused("bone = [{ part = \"jaw\", move_mm = [0, 0, 6] }]"),
-              testing::AllOf(testing::HasSubstr("surgery.bone[0].part"),
-                             testing::HasSubstr("\"skull\", \"maxilla\", \"mandible\" or \"chin\"")));
+  EXPECT_THAT(
+      refused("bone = [{ part = \"jaw\", move_mm = [0, 0, 6] }]"),
+      testing::AllOf(testing::HasSubstr("surgery.bone[0].part"),
+                     testing::HasSubstr("\"skull\", \"maxilla\", \"mandible\" or \"chin\"")));
   EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [6] }]"),
               testing::HasSubstr("a list of 3 numbers, each from -30 to 30 (mm)"));
   EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [0, 0, 60] }]"),

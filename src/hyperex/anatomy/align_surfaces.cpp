@@ -82,8 +82,7 @@ SurfaceAlignment align_to_surface(const Points& points, const TriMesh& surface,
       const ClosestPoint& c = closest[use[k]];
       Vec3 n = Vec3::Zero();
       for (int corner = 0; corner < 3; ++corner)
-        n += c.weights[corner] *
-             normals.row(surface.triangles(c.triangle, corner)).transpose();
+        n += c.weights[corner] * normals.row(surface.triangles(c.triangle, corner)).transpose();
       at.push_back(now.row(Eigen::Index(use[k])));
       foot.push_back(c.point);
       normal.push_back(n.normalized());

@@ -14,8 +14,8 @@ namespace {
 using simulate::BonePart;
 
 constexpr std::array kLandmarks = {
-    "pronasale",  "subnasale",  "labiale_superius", "stomion", "labiale_inferius", "pogonion",
-    "cheilion_R", "cheilion_L", "alare_R",          "alare_L"};
+    "pronasale", "subnasale",  "labiale_superius", "stomion", "labiale_inferius",
+    "pogonion",  "cheilion_R", "cheilion_L",       "alare_R", "alare_L"};
 /// A movement below this has no ratio, mm.
 constexpr double kLeastMove_mm = 0.5;
 
@@ -112,20 +112,20 @@ double change_of_nose_width_mm(const simulate::Performance& before,
 void write_soft_tissue_csv(const std::filesystem::path& file,
                            const std::vector<SoftTissueMove>& moves) {
   write_file_atomically(file, [&](std::ostream& out) {
-  out << "landmark,rest_left_mm,rest_up_mm,rest_forward_mm,before_left_mm,before_up_mm,"
-         "before_forward_mm,after_left_mm,after_up_mm,after_forward_mm,soft_per_bone,"
-         "published_usual,published_low,published_high\n";
-  for (const SoftTissueMove& m : moves) {
-    out << m.landmark;
-    for (const Vec3& v : {m.at_rest, m.expression_before, m.expression_after})
-      for (const double mm : v) out << ',' << cell(mm);
-    out << ',' << cell(m.ratio);
-    for (const double value :
-         {m.published ? m.published->usual : NAN, m.published ? m.published->low : NAN,
-          m.published ? m.published->high : NAN})
-      out << ',' << cell(value);
-    out << '\n';
-  }
+    out << "landmark,rest_left_mm,rest_up_mm,rest_forward_mm,before_left_mm,before_up_mm,"
+           "before_forward_mm,after_left_mm,after_up_mm,after_forward_mm,soft_per_bone,"
+           "published_usual,published_low,published_high\n";
+    for (const SoftTissueMove& m : moves) {
+      out << m.landmark;
+      for (const Vec3& v : {m.at_rest, m.expression_before, m.expression_after})
+        for (const double mm : v) out << ',' << cell(mm);
+      out << ',' << cell(m.ratio);
+      for (const double value :
+           {m.published ? m.published->usual : NAN, m.published ? m.published->low : NAN,
+            m.published ? m.published->high : NAN})
+        out << ',' << cell(value);
+      out << '\n';
+    }
   });
 }
 

@@ -37,8 +37,8 @@ ResponsePair response_pair(const simulate::Performance& base, const motion::Moti
                            double clear_m);
 
 /// The greatest distance over time between a point in this run and in base at the same time, less
-/// that between the two in the first sample, which surgery makes. It shows differences that the excursion does not: for example, a weaker smile while the opening jaw
-/// moves the point farther.
+/// that between the two in the first sample, which surgery makes. It shows differences that the
+/// excursion does not: for example, a weaker smile while the opening jaw moves the point farther.
 struct DistanceFromBase {
   double most_mm = std::numeric_limits<double>::quiet_NaN();  ///< NaN: the point is unknown
   double time_s = std::numeric_limits<double>::quiet_NaN();   ///< of the run

@@ -43,12 +43,10 @@ class Laying {
       const int pieces = std::max(1, static_cast<int>((at[i + 1] - at[i]).norm() / kStep_m));
       for (int k = i == 0 ? 0 : 1; k <= pieces; ++k) {
         const double t = static_cast<double>(k) / pieces;
-        line.push_back(
-            muscle.straight
-                ? Vec3((1 - t) * place(i) + t * place(i + 1))
-                : Vec3(sunk((1 - t) * at[i] + t * at[i + 1],
-                            (1 - t) * depth[i] + t * depth[i + 1]) +
-                       (1 - t) * (place(i) - sunk(at[i], depth[i]))));
+        line.push_back(muscle.straight ? Vec3((1 - t) * place(i) + t * place(i + 1))
+                                       : Vec3(sunk((1 - t) * at[i] + t * at[i + 1],
+                                                   (1 - t) * depth[i] + t * depth[i + 1]) +
+                                              (1 - t) * (place(i) - sunk(at[i], depth[i]))));
       }
     }
     out.line.resize(static_cast<Eigen::Index>(line.size()), 3);

@@ -163,7 +163,7 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
   FaceRig rig;
   rig.scan = std::make_shared<const io::Scan>(session.inputs().scan);
   rig.teeth = session.teeth();
-  rig.jaw_axis_m = 
+  rig.jaw_axis_m =
       simulate::JawHinge(session.inputs().landmarks, session.mesh().bones.get()).centre;
   for (const std::string& name : expression::arkit_shapes())
     rig.shapes.push_back(simulated.named(name));

@@ -196,10 +196,9 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
   const auto draw = [&](const render::Camera& camera, const Still* still) -> render::SheetPicture {
     const Points shape = still ? moved(p, *still->displacement) : p.skin_rest.points;
     const TriMesh mesh{frame.local_points(shape), p.skin_rest.triangles};
-    const BackingSurfaces behind(backing, frame, mesh.points, r.teeth,
-                                 still ? *still->jaw : Eigen::Isometry3d::Identity(),
-                                 still ? p.upper_teeth_now_from_rest
-                                       : Eigen::Isometry3d::Identity());
+    const BackingSurfaces behind(
+        backing, frame, mesh.points, r.teeth, still ? *still->jaw : Eigen::Isometry3d::Identity(),
+        still ? p.upper_teeth_now_from_rest : Eigen::Isometry3d::Identity());
     if (!still)
       return {render::render(behind.with({.mesh = mesh, .colours = skin}), camera, options,
                              markers(p, frame), lines),

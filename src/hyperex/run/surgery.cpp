@@ -66,10 +66,10 @@ void draw_surgery(const Results& base, const VariantRun& run, const std::filesys
     const TriMesh skin = skin_of(p, frames[row]);
     const BackingSurfaces behind(backing, frame, skin.points, base.teeth,
                                  p.jaw_now_from_rest[frames[row]], p.upper_teeth_now_from_rest);
-    sheet.pictures[at] = {render::render(behind.with({.mesh = skin}), cameras[view], size),
-                          fmt::format("{}, {}", face == 0 ? "before" : "after",
-                                      row == 0 ? "at rest" : "expression"),
-                          render::side_marks(cameras[view])};
+    sheet.pictures[at] = {
+        render::render(behind.with({.mesh = skin}), cameras[view], size),
+        fmt::format("{}, {}", face == 0 ? "before" : "after", row == 0 ? "at rest" : "expression"),
+        render::side_marks(cameras[view])};
   });
   render::write_png(file, render::contact_sheet(sheet));
 }
@@ -84,19 +84,20 @@ void write_surgery(const Results& base, const VariantRun& run,
 
 nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run) {
   nlohmann::ordered_json out{{"landmarks", metrics::json_of(moves_of(base, run))}};
-  if (const double width = metrics::change_of_nose_width_mm(base.simulation.performance,
-                                                            run.simulation.performance);
+  if (const double width =
+          metrics::change_of_nose_width_mm(base.simulation.performance, run.simulation.performance);
       std::isfinite(width))
     out["nose_width_change_mm"] = width;
   return out;
 }
 
 std::string surgery_lines(const nlohmann::ordered_json& summary) {
-  constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {{{"pogonion", "chin"},
-                                 {"labiale_inferius", "lower lip"},
-                                 {"labiale_superius", "upper lip"},
-                                 {"subnasale", "base of the nose"},
-                                 {"pronasale", "tip of the nose"}}};
+  constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {
+      {{"pogonion", "chin"},
+       {"labiale_inferius", "lower lip"},
+       {"labiale_superius", "upper lip"},
+       {"subnasale", "base of the nose"},
+       {"pronasale", "tip of the nose"}}};
   std::string lines;
   if (!summary.contains("variants")) return lines;
   for (const auto& row : summary["variants"]["table"]) {
@@ -109,10 +110,10 @@ std::string surgery_lines(const nlohmann::ordered_json& summary) {
         text += fmt::format("{}{} {:.1f} mm", text.empty() ? "" : ", ", words,
                             std::hypot(by[0], by[1], by[2]));
         if (one.contains("published"))
-          text += fmt::format(" ({:.2f} of the bone; published {:.2f} to {:.2f})",
-                              one["soft_per_bone"].get<double>(),
-                              one["published"]["low"].get<double>(),
-                              one["published"]["high"].get<double>());
+          text +=
+              fmt::format(" ({:.2f} of the bone; published {:.2f} to {:.2f})",
+                          one["soft_per_bone"].get<double>(), one["published"]["low"].get<double>(),
+                          one["published"]["high"].get<double>());
       }
     lines += fmt::format("  {}, at rest: {}\n", row["name"].get<std::string>(), text);
   }

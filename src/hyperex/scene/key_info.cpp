@@ -43,7 +43,8 @@ std::string KeyInfo::expected() const {
       return number_text(*this, "a number");
     case Kind::numbers:
       if (most == 2) return number_text(*this, "a number, or a list of two rising ones, each");
-      return "a list of " + count_text(least, most) + number_text(*this, least == most ? "numbers, each" : "rising numbers, each");
+      return "a list of " + count_text(least, most) +
+             number_text(*this, least == most ? "numbers, each" : "rising numbers, each");
     case Kind::text:
       return least > 0 ? "a name in quotes" : "a text in quotes";
     case Kind::choice:

@@ -192,7 +192,8 @@ struct AnatomyOptions {
   bool any() const { return !ct.empty() || !skull.empty() || !mandible.empty(); }
 
   static constexpr const char* about =
-      "The person's own bones, on which the layer of tissue ends (docs/ct.md). Where none are given, "
+      "The person's own bones, on which the layer of tissue ends (docs/ct.md). Where none are "
+      "given, "
       "thickness and bones are estimated from landmarks.";
   template <class Visitor>
   static void describe(Visitor& v) {

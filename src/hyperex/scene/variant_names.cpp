@@ -21,8 +21,8 @@ bool is_alphanumeric(unsigned char c) {
 }  // namespace
 
 const std::vector<std::string>& variant_sections() {
-  static const std::vector<std::string> sections = {"tissue", "support", "drive", "muscles",
-                                                    "region", "surgery"};
+  static const std::vector<std::string> sections = {"tissue",  "support", "drive",
+                                                    "muscles", "region",  "surgery"};
   return sections;
 }
 

@@ -21,7 +21,7 @@ struct Inputs {
   std::vector<std::string> placed;  ///< landmarks that were not given
   anatomy::Teeth teeth;             ///< the user's own scans of them; often none
   std::shared_ptr<const anatomy::Bones> bones;  ///< the person's own; null: none are known
-  simulate::AlignedMotion motion;   ///< gaps filled, without head pose, in the scan's frame
+  simulate::AlignedMotion motion;  ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
   /// What errors of the head's pose make, by the recording's pairs of points, without motion.gain.

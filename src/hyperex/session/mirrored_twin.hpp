@@ -19,7 +19,7 @@ struct MirroredTwin {
   std::string why_not;       ///< a sentence where there is no twin, else empty
   motion::Motion landmarks;  ///< as Performance::landmarks of the run, same names and times
   std::vector<PointsF> skin_displacement_m;
-  PointsF neutral_displacement_m;  ///< Performance::neutral_displacement_m
+  PointsF neutral_displacement_m;                  ///< Performance::neutral_displacement_m
   std::shared_ptr<simulate::Simulator> simulator;  ///< of the mirrored motion; null: no twin
 };
 

@@ -244,8 +244,8 @@ std::optional<PreparedFace> prepared_face_from(const std::string& bytes) {
 namespace {
 
 /// The mesh with the bones that it was made on, which are not kept with it.
-std::shared_ptr<const tissue::TissueMesh> with_bones(
-    std::shared_ptr<const tissue::TissueMesh> mesh, std::shared_ptr<const anatomy::Bones> bones) {
+std::shared_ptr<const tissue::TissueMesh> with_bones(std::shared_ptr<const tissue::TissueMesh> mesh,
+                                                     std::shared_ptr<const anatomy::Bones> bones) {
   if (!bones) return mesh;
   auto out = std::make_shared<tissue::TissueMesh>(*mesh);
   out->bones = std::move(bones);

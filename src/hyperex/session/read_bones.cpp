@@ -109,9 +109,9 @@ Eigen::Isometry3d scan_from_ct(const scene::Scene& scene, const io::Scan& scan,
   for (const ClosestPoint& c : SurfaceTree(skin).query_all(points))
     apart.push_back(std::sqrt(c.squared_distance));
   if (median(apart) < kSameFrame_m) {
-    notes.push_back(
-        make_note("anatomy.ct_in_frame", "the CT's skin lies on the scan: both are in one frame",
-                  "anatomy.ct"));
+    notes.push_back(make_note("anatomy.ct_in_frame",
+                              "the CT's skin lies on the scan: both are in one frame",
+                              "anatomy.ct"));
     return Eigen::Isometry3d::Identity();
   }
   const Eigen::Isometry3d start = by_landmarks(scene, landmarks).inverse();
@@ -120,10 +120,10 @@ Eigen::Isometry3d scan_from_ct(const scene::Scene& scene, const io::Scan& scan,
     refuse(scene, "anatomy.ct",
            fmt::format("a CT of the same face: its skin is {:.1f} mm (median) from the scan",
                        1e3 * fit.median_m));
-  const std::string text =
-      fmt::format("the CT was laid on the scan by nose, forehead, cheeks and chin: its skin is {:.2f} "
-                  "mm (median; 95 %: {:.2f} mm) from the scan there",
-                  1e3 * fit.median_m, 1e3 * fit.p95_m);
+  const std::string text = fmt::format(
+      "the CT was laid on the scan by nose, forehead, cheeks and chin: its skin is {:.2f} "
+      "mm (median; 95 %: {:.2f} mm) from the scan there",
+      1e3 * fit.median_m, 1e3 * fit.p95_m);
   notes.push_back(fit.median_m > kDoubtful_m
                       ? make_warning("anatomy.ct_fits_badly", text, "anatomy.ct")
                       : make_note("anatomy.ct_aligned", text, "anatomy.ct"));
@@ -133,9 +133,9 @@ Eigen::Isometry3d scan_from_ct(const scene::Scene& scene, const io::Scan& scan,
 TriMesh read_bone(const fs::path& file, io::LengthUnit unit, const Eigen::Isometry3d& moved) {
   if (file.empty()) return {};
   TriMesh mesh = io::read_mesh(file, unit);
-  mesh.points = ((mesh.points * moved.linear().transpose()).rowwise() +
-                 moved.translation().transpose())
-                    .eval();
+  mesh.points =
+      ((mesh.points * moved.linear().transpose()).rowwise() + moved.translation().transpose())
+          .eval();
   return mesh;
 }
 
@@ -161,10 +161,10 @@ void check_places(const scene::Scene& scene, const io::Scan& scan, const io::Lan
                        "anatomy.unit states the unit)",
                        100 * double(under) / count, 1e3 * kUnder_m, 100 * double(over) / count));
   if (double(over) > kSomeOver * count)
-    notes.push_back(make_warning(
-        "anatomy.bone_outside",
-        fmt::format("at {:.0f} % of the face, bone lies outside the skin", 100 * double(over) / count),
-        key));
+    notes.push_back(make_warning("anatomy.bone_outside",
+                                 fmt::format("at {:.0f} % of the face, bone lies outside the skin",
+                                             100 * double(over) / count),
+                                 key));
 }
 
 }  // namespace
@@ -204,7 +204,8 @@ std::shared_ptr<const anatomy::Bones> read_bones(const scene::Scene& scene, cons
         "about an axis estimated from landmarks",
         "anatomy.mandible"));
   }
-  auto bones = std::make_shared<const anatomy::Bones>(std::move(skull), std::move(mandible), condyles);
+  auto bones =
+      std::make_shared<const anatomy::Bones>(std::move(skull), std::move(mandible), condyles);
   check_places(scene, scan, landmarks, *bones, notes);
   return bones;
 }

@@ -9,8 +9,9 @@ namespace {
 /// Keys that a simulator cannot take: they change the inputs or the mesh.
 bool makes_the_face(const std::string& key) {
   const std::string section = scene::section_of(key);
-  return section == "scan" || section == "mesh" || section == "anatomy" || section == "alignment" || section == "teeth" ||
-         (section == "motion" && key != "motion.gain") || key == "time.start_s";
+  return section == "scan" || section == "mesh" || section == "anatomy" || section == "alignment" ||
+         section == "teeth" || (section == "motion" && key != "motion.gain") ||
+         key == "time.start_s";
 }
 
 }  // namespace

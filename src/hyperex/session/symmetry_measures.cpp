@@ -26,12 +26,12 @@ metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inp
   metrics::SymmetryMeasures all;
   run_together(
       {[&] {
-         all.map = p.neutral_displacement_m.rows() == 0
-                       ? metrics::asymmetry_of(at_rest, p.skin_displacement_m,
-                                               twin.skin_displacement_m)
-                       : metrics::asymmetry_of(
-                             at_rest, less(p.skin_displacement_m, p.neutral_displacement_m),
-                             less(twin.skin_displacement_m, twin.neutral_displacement_m));
+         all.map =
+             p.neutral_displacement_m.rows() == 0
+                 ? metrics::asymmetry_of(at_rest, p.skin_displacement_m, twin.skin_displacement_m)
+                 : metrics::asymmetry_of(
+                       at_rest, less(p.skin_displacement_m, p.neutral_displacement_m),
+                       less(twin.skin_displacement_m, twin.neutral_displacement_m));
        },
        [&] {
          all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);

@@ -91,14 +91,13 @@ void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& proble
                                  "3: to the left, up, forward"));
     const BoneCut usual = usual_cut(move.part);
     const bool chin = move.part == BonePart::chin || move.part == BonePart::maxilla;
-    const bool fits = move.cut == BoneCut::standard || move.cut == usual ||
-                      (move.cut == BoneCut::whole && !chin);
+    const bool fits =
+        move.cut == BoneCut::standard || move.cut == usual || (move.cut == BoneCut::whole && !chin);
     if (!fits)
-      problems.push_back(
-          wrong(fmt::format("surgery.bone[{}].cut", i).c_str(), std::string(word_of(move.cut)),
-                fmt::format("standard or {}{} for the {}", word_of(usual),
-                            chin || usual == BoneCut::whole ? "" : ", or whole,",
-                            word_of(move.part))));
+      problems.push_back(wrong(
+          fmt::format("surgery.bone[{}].cut", i).c_str(), std::string(word_of(move.cut)),
+          fmt::format("standard or {}{} for the {}", word_of(usual),
+                      chin || usual == BoneCut::whole ? "" : ", or whole,", word_of(move.part))));
   }
 }
 

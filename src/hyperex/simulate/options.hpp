@@ -190,11 +190,12 @@ struct SurgeryOptions {
       "Segments of bone that are moved before the expression begins. Forces must drive the face.";
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.option(HX_MEMBER(bones),
-             "Segments of bone that are moved, one after the other: the mandible before the chin "
-             "on it. The face at rest follows them, then the recorded forces act. The lips are kept "
-             "from passing through each other, as with contact.lips.",
-             {.key = "bone"});
+    v.option(
+        HX_MEMBER(bones),
+        "Segments of bone that are moved, one after the other: the mandible before the chin "
+        "on it. The face at rest follows them, then the recorded forces act. The lips are kept "
+        "from passing through each other, as with contact.lips.",
+        {.key = "bone"});
   }
 };
 

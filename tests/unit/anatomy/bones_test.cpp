@@ -81,9 +81,9 @@ TEST(AlignToSurface, FindsARigidMotionInSpiteOfPartsThatMoved) {
   truth.translation() = Vec3(0.004, -0.006, 0.003);
   Points points = moved(truth.inverse(), face.mesh.points);
   // A tenth of the points is elsewhere, as lips in another expression.
-  for (Eigen::Index v = 0; v < points.rows(); v += 10) points.row(v) += Eigen::RowVector3d(0, 0, 0.008);
-  const SurfaceAlignment found =
-      align_to_surface(points, face.mesh, Eigen::Isometry3d::Identity());
+  for (Eigen::Index v = 0; v < points.rows(); v += 10)
+    points.row(v) += Eigen::RowVector3d(0, 0, 0.008);
+  const SurfaceAlignment found = align_to_surface(points, face.mesh, Eigen::Isometry3d::Identity());
   EXPECT_LT((found.to_from_points.matrix() - truth.matrix()).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT(found.median_m, 1e-5);
   EXPECT_GT(found.p95_m, 0.002) << "points that are left out count in the distances";

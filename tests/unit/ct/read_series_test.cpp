@@ -277,12 +277,12 @@ TEST_F(ReadSeries, RefusesLongLinesOfAnNrrdHeader) {
     std::ofstream(in("ct.nrrd"), std::ios::binary) << out;
   };
   const std::string much(5000, '3');
-  for (const std::string& begin :
+  for (const std::string begin :
        {"", "sizes: ", "space units: \"", "encoding: :=", "data file: "}) {
     with_line(begin + much);
     EXPECT_THAT(refused(in("ct.nrrd")), HasSubstr("ct.nrrd:2: ")) << begin;
   }
-  for (const std::string& begin : {"# ", "a key:=", "a key:=with: "}) {
+  for (const std::string begin : {"# ", "a key:=", "a key:=with: "}) {
     with_line(begin + much);
     expect_same(read_series(in("ct.nrrd")).volume, made);
   }

@@ -97,8 +97,9 @@ TEST_F(SoftTissueMoves, AreWrittenAsATable) {
   EXPECT_EQ(columns, 13);
   while (std::getline(in, line)) {
     EXPECT_EQ(std::ranges::count(line, ','), columns) << line;
-    if (line.starts_with("pogonion,"))
+    if (line.starts_with("pogonion,")) {
       EXPECT_THAT(line, testing::EndsWith(",0.750,0.900,0.570,1.050"));
+    }
   }
   const auto json = json_of(all);
   ASSERT_EQ(json.size(), 10u);

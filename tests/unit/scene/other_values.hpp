@@ -56,11 +56,11 @@ inline nlohmann::json other_value(const Key& key) {
   nlohmann::json row;
   for (const KeyInfo& column : key.columns)
     if (column.kind == Kind::choice)
-      row[column.name] = column.choices.front();
+      row[column.name] = column.choices.back();
     else if (column.kind == Kind::numbers)
       row[column.name] = {column.range.least, 0.125, column.range.most};
     else if (column.kind == Kind::number)
-      row[column.name] = (column.range.least + column.range.most) / 2;
+      row[column.name] = (column.range.least + 3 * column.range.most) / 4;
     else
       row[column.name] = column.kind == Kind::path ? "face.ply" : "chin";
   return nlohmann::json::array({row});

@@ -55,11 +55,10 @@ TEST_F(JawTest, RecoversAnOpening) {
 
 TEST_F(JawTest, TurnsAboutTheCondylesOfGivenBones) {
   const Points chin = points({7, 8, 9});
-  const Vec3 middle =
-      0.5 * (landmarks_.at(ibug(1)) + landmarks_.at(ibug(15))) + 0.012 * frame_.z;
+  const Vec3 middle = 0.5 * (landmarks_.at(ibug(1)) + landmarks_.at(ibug(15))) + 0.012 * frame_.z;
   const TriMesh any{Points::Identity(3, 3), Triangles{{0, 1, 2}}};
-  const anatomy::Bones bones(
-      any, {}, anatomy::Condyles{middle + 0.05 * frame_.x, middle - 0.05 * frame_.x});
+  const anatomy::Bones bones(any, {},
+                             anatomy::Condyles{middle + 0.05 * frame_.x, middle - 0.05 * frame_.x});
   Jaw jaw(landmarks_, &bones);
   const Eigen::Isometry3d truth = opened(15, 0.012);
   EXPECT_LT((jaw.follow(chin, carried(truth, chin)).matrix() - truth.matrix()).norm(), 1e-7);

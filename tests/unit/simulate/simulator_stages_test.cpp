@@ -286,10 +286,9 @@ TEST_F(SimulatorStagesOfAFace, ACopyComputesOnlyWhatChangesAsItIsUsed) {
 /// unnoticed.
 TEST(SimulatorStages, EveryOptionIsAnInputOfSomeStage) {
   const SimulatorStages stages;
-  for (const auto* cases :
-       {&model_cases(), &tissue_cases(), &support_cases(), &drive_cases(), &region_cases(),
-        &solver_cases(), &finite_solver_cases(), &contact_cases(), &time_cases(), &muscle_cases(),
-        &surgery_cases()})
+  for (const auto* cases : {&model_cases(), &tissue_cases(), &support_cases(), &drive_cases(),
+                            &region_cases(), &solver_cases(), &finite_solver_cases(),
+                            &contact_cases(), &time_cases(), &muscle_cases(), &surgery_cases()})
     for (const OptionCase& option : *cases) {
       Options before, now;
       // Muscles have an effect where they drive.

@@ -105,12 +105,13 @@ TriMesh inner_over(const tissue::TissueMesh& mesh, const std::vector<Bone>& unde
 TEST(BonesUnder, AreThoseThatAreGivenWhereTissueIsAttached) {
   test::SmallFace face = test::small_face();
   const auto estimated = bones_under(face.mesh, face.landmarks);
-  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh), 0), 0) << "no bones are known";
+  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh, face.landmarks), 0), 0)
+      << "no bones are known";
   TriMesh skull = inner_over(face.mesh, estimated, Bone::skull);
   TriMesh jaw = inner_over(face.mesh, estimated, Bone::mandible);
   face.mesh.bones = std::make_shared<const anatomy::Bones>(skull, jaw);
   const auto given = bones_under(face.mesh, face.landmarks);
-  const auto backed = backed_by_bone(face.mesh);
+  const auto backed = backed_by_bone(face.mesh, face.landmarks);
   int same = 0;
   for (std::size_t v = 0; v < given.size(); ++v) {
     same += given[v] == estimated[v];
@@ -125,7 +126,7 @@ TEST(BonesUnder, AreThoseThatAreGivenWhereTissueIsAttached) {
   TriMesh all = skull;
   all.triangles = face.mesh.volume.outer.triangles;
   face.mesh.bones = std::make_shared<const anatomy::Bones>(all, TriMesh());
-  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh), 0), 0);
+  EXPECT_EQ(std::ranges::count(backed_by_bone(face.mesh, face.landmarks), 0), 0);
   const auto everywhere = bones_under(face.mesh, face.landmarks);
   const auto at = [&](int k) {
     return everywhere[std::size_t(

@@ -134,7 +134,9 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
 
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const SupportOptions& support)
-    : mesh_(mesh), jaw_(landmarks, mesh.bones.get()), driven_(std::make_shared<const DrivenSkin>()) {
+    : mesh_(mesh),
+      jaw_(landmarks, mesh.bones.get()),
+      driven_(std::make_shared<const DrivenSkin>()) {
   hold_border(landmarks, support);
   set_bones(landmarks, support);
   number_unknowns();
@@ -155,8 +157,7 @@ void Boundary::hold_border(const io::Landmarks& landmarks, const SupportOptions&
   for (int v = 0; v < mesh_.volume.surface_nodes(); ++v)
     if (mesh_.on_border[v] && !moves_with_jaw[v])
       for (int level = 0; level <= mesh_.volume.layers; ++level)
-        fixed_.push_back(
-            {static_cast<int>(level * mesh_.volume.surface_nodes()) + v, Bone::none});
+        fixed_.push_back({static_cast<int>(level * mesh_.volume.surface_nodes()) + v, Bone::none});
 }
 
 void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& support) {
@@ -167,7 +168,7 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
   const std::vector<EdgeOfJaw> edge =
       support.throat_pa_per_m > 0 ? edge_of_jaw(mesh_, landmarks) : std::vector<EdgeOfJaw>();
   const bool follows_field = driven_->field_weights.rows() > 0;
-  const std::vector<char> backed = backed_by_bone(mesh_);
+  const std::vector<char> backed = backed_by_bone(mesh_, landmarks);
   const auto layered = [&](int v, const BoneLayer& layer) {
     const Vec3 n = normals.row(v);
     const Eigen::Matrix3d across = n * n.transpose();
@@ -182,13 +183,11 @@ void Boundary::set_bones(const io::Landmarks& landmarks, const SupportOptions& s
       springs_.push_back({node, areas[v] * support.field_pa_per_m * Eigen::Matrix3d::Identity(),
                           Holder::between, follows_field ? Spring::field : Spring::rest, v});
     if (bones[v] == Bone::none && support.teeth_layer.across_pa_per_m > 0 &&
-        to_lips[v] < support.teeth_reach_m)
-    {
+        to_lips[v] < support.teeth_reach_m) {
       const bool upper = mesh_.upper_margin[v] > 0;
-      springs_.push_back({node, layered(v, support.teeth_layer),
-                          upper ? Holder::upper_teeth : Holder::lower_teeth,
-                          upper ? Spring::rest : Spring::jaw, v,
-                          mesh_.volume.nodes.row(node).transpose()});
+      springs_.push_back(
+          {node, layered(v, support.teeth_layer), upper ? Holder::upper_teeth : Holder::lower_teeth,
+           upper ? Spring::rest : Spring::jaw, v, mesh_.volume.nodes.row(node).transpose()});
     }
     if (bones[v] == Bone::none && !edge.empty() && edge[v].below)
       springs_.push_back({node, areas[v] * support.throat_pa_per_m * Eigen::Matrix3d::Identity(),
@@ -230,8 +229,7 @@ std::vector<int> Boundary::held_nodes() const {
   return held;
 }
 
-Boundary Boundary::with_moved_bones(const io::Landmarks& landmarks,
-                                    const Osteotomies& cuts) const {
+Boundary Boundary::with_moved_bones(const io::Landmarks& landmarks, const Osteotomies& cuts) const {
   Boundary out = *this;
   const Points& rest = mesh_.volume.nodes;
   const BonesAbout about(cuts, bones_under(mesh_, landmarks),

@@ -58,8 +58,8 @@ class Boundary {
   /// them, and the tissue over neither bone is moved as bones on all sides of it, by the squares of
   /// their inverse distances. Where all bones have the same rigid motion, all support has it.
   Boundary with_moved_bones(const io::Landmarks& landmarks, const Osteotomies& cuts) const;
-  /// What moved bones prescribe (m, as prescribed()) and the forces of their springs on all unknowns
-  /// (N), where the tissue is at rest otherwise.
+  /// What moved bones prescribe (m, as prescribed()) and the forces of their springs on all
+  /// unknowns (N), where the tissue is at rest otherwise.
   Eigen::VectorXd prescribed_by_bones() const;
   Eigen::VectorXd forces_of_bones() const;
 
@@ -79,8 +79,8 @@ class Boundary {
   JawMotion follow(const Points& point_displacement);
   /// Forces (N, all unknowns) of the springs that follow the jaw. They are linear in its motion.
   Eigen::VectorXd forces_of_jaw(const JawMotion& jaw) const;
-  /// Forces of unit motions of the jaw (3 |nodes| x 12): one column per entry of its turn (column by
-  /// column) and of its slide.
+  /// Forces of unit motions of the jaw (3 |nodes| x 12): one column per entry of its turn (column
+  /// by column) and of its slide.
   Eigen::MatrixXd unit_forces_of_jaw() const;
   double jaw_opening_deg() const { return jaw_.opening_deg(); }  ///< of the last answer
 
@@ -108,9 +108,9 @@ class Boundary {
     Eigen::Matrix3d stiffness;  // N/m
     Holder holder;
     enum Target { rest, jaw, field } target;
-    int row;                 // of the field
-    Vec3 at = Vec3::Zero();  // of the jaw: the place on it that the spring follows
-    double share = 1;        // of that place's displacement
+    int row;                   // of the field
+    Vec3 at = Vec3::Zero();    // of the jaw: the place on it that the spring follows
+    double share = 1;          // of that place's displacement
     Vec3 base = Vec3::Zero();  // displacement of what holds it, by moved bones
   };
   struct Fixed {

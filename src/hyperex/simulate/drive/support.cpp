@@ -14,18 +14,24 @@ using face::ibug;
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
 constexpr double border_free_m = 0.035;
-constexpr double attached_m = 0.0015, backed_m = 0.005, ramus_m = 0.035;
+constexpr double attached_m = 0.0015, backed_m = 0.005;
+/// The front edge of the ramus lies this far in front of the condyles; the estimated ones lie in
+/// front of the true ones.
+constexpr double ramus_m = 0.035, ramus_estimated_m = 0.015;
 constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
  public:
-  explicit BoneMap(const io::Landmarks& landmarks) : frame_(face::face_frame(landmarks)) {
+  explicit BoneMap(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr)
+      : frame_(face::face_frame(landmarks)) {
     for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(face::ibug(k))));
     for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(face::ibug(k))));
     nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
     ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
     lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
-    condyles_z_ = 0.5 * (jaw_line_[1] + jaw_line_[15]).z();
+    const auto* own = bones && bones->condyles() ? &*bones->condyles() : nullptr;
+    ramus_z_ = own ? frame_.local(0.5 * ((*own)[0] + (*own)[1])).z() + ramus_m
+                   : 0.5 * (jaw_line_[1] + jaw_line_[15]).z() + ramus_estimated_m;
   }
 
   /// Whether the tissue of a node is attached to the bone at its inner end.
@@ -33,7 +39,7 @@ class BoneMap {
     const Vec3 q = frame_.local(inner), p = frame_.local(outer);
     if (bone == Bone::skull)
       return q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
-    return p.y() < lower_lip_ - jaw_below_lip_m && q.z() > condyles_z_ + ramus_m &&
+    return p.y() < lower_lip_ - jaw_below_lip_m && q.z() > ramus_z_ &&
            distance_to_lips(p) >= jaw_off_lips_m;
   }
 
@@ -97,13 +103,13 @@ class BoneMap {
   face::FaceFrame frame_;
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
-  double lower_lip_ = 0, condyles_z_ = 0;
+  double lower_lip_ = 0, ramus_z_ = 0;
 };
 
 }  // namespace
 
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  const BoneMap map(landmarks);
+  const BoneMap map(landmarks, mesh.bones.get());
   const auto& volume = mesh.volume;
   std::vector<Bone> bones(volume.surface_nodes());
   for (int v = 0; v < volume.surface_nodes(); ++v) {
@@ -118,13 +124,15 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
   return bones;
 }
 
-std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh) {
+std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
   const auto& volume = mesh.volume;
   std::vector<char> out(volume.surface_nodes(), 1);
-  if (mesh.bones)
-    for (int v = 0; v < volume.surface_nodes(); ++v)
-      out[v] =
-          mesh.bones->nearest(volume.nodes.row(volume.inner_node(v)), backed_m).bone != Bone::none;
+  if (!mesh.bones) return out;
+  const BoneMap map(landmarks);
+  for (int v = 0; v < volume.surface_nodes(); ++v)
+    out[v] =
+        map.edge_from(volume.nodes.row(v)).below ||
+        mesh.bones->nearest(volume.nodes.row(volume.inner_node(v)), backed_m).bone != Bone::none;
   return out;
 }
 

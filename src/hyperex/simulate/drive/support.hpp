@@ -10,11 +10,12 @@ using anatomy::Bone;
 
 /// The bone to which the tissue is attached under each inner node.
 ///
-/// Where TissueMesh::bones are known, it is the bone at most 1.5 mm from the node, save where tissue
-/// slides freely over bone and teeth:
+/// Where TissueMesh::bones are known, it is the bone at most 1.5 mm from the node, save where
+/// tissue slides freely over bone and teeth:
 ///  * over the skull below the line from the base of the nose back to below the ears;
-///  * over the mandible less than 16 mm below the lower lip's edge, and over its ramus (less than
-///    35 mm in front of the estimated condyles), where it glides on the masseter;
+///  * over the mandible less than 16 mm below the lower lip's edge, and over its ramus, where it
+///    glides on the masseter: less than 35 mm in front of the condyles, or 15 mm in front of the
+///    estimated ones;
 ///  * within 8 mm (skull) or 6 mm (mandible) of the lips.
 ///
 /// Otherwise it is estimated from landmarks:
@@ -26,9 +27,10 @@ using anatomy::Bone;
 ///  * none elsewhere: cheeks, the floor of the mouth and the neck.
 std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
-/// One flag per inner node: whether bone lies within 5 mm of it. Elsewhere the layer lies over a
+/// One flag per inner node: whether bone lies within 5 mm of it, or it belongs to the neck, below
+/// the edge of the jaw, behind which there is further tissue. Elsewhere the layer lies over a
 /// cavity. All true where no bones are known.
-std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh);
+std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
 /// Distance of each outer node to the nearest of ibug68_48 to 67, m.
 std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,

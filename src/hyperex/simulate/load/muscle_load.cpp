@@ -70,8 +70,8 @@ Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& mot
   return out;
 }
 
-MuscleFit fit_of(const JawKinematics& jaw, const MuscleModel& model, const Driven& driven,
-                 const MuscleOptions& options) {
+MuscleFit fit_of(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                 const MuscleModel& model, const Driven& driven, const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
   std::vector<char> tone, ring;
   for (const muscles::MuscleLine& line : model.lines()) {
@@ -82,8 +82,8 @@ MuscleFit fit_of(const JawKinematics& jaw, const MuscleModel& model, const Drive
   return MuscleFit(
       {at_places(driven.carrier, model.response()), at_places(driven.carrier, model.jaw_response()),
        at_places(driven.carrier, model.wide_response()), options.half},
-      jaw, muscle_prior(model.lines(), options), sigma, std::move(tone),
-      std::move(ring));
+      JawKinematics(landmarks, mesh.bones.get()), muscle_prior(model.lines(), options), sigma,
+      std::move(tone), std::move(ring));
 }
 
 /// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points
@@ -263,8 +263,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleFit fit = fit_of(JawKinematics(landmarks, mesh.bones.get()), model, driven,
-                         options.muscles);
+  MuscleFit fit = fit_of(mesh, landmarks, model, driven, options.muscles);
   const JawKinematics jaw(landmarks);
 
   HeldLoad load;

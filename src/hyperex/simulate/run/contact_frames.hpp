@@ -26,8 +26,7 @@ class ContactFrames {
   /// Everything must outlive this. `lips`: null where they may pass through each other.
   ContactFrames(const LipSurfaces* lips, const Places& places,
                 const std::vector<FrameTime>& frame_times, const Solution& solution,
-                const SimulationResult& result,
-                const Eigen::Isometry3d& upper_teeth_now_from_rest);
+                const SimulationResult& result, const Eigen::Isometry3d& upper_teeth_now_from_rest);
 
   std::size_t count() const { return frame_times_.size(); }
   const FrameTime& time_of(std::size_t i) const { return frame_times_[i]; }

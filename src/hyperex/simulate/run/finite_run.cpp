@@ -130,6 +130,17 @@ class ReadOff {
   Eigen::MatrixXd out_;
 };
 
+/// Starts at rest: with moved bones in static equilibrium on them.
+void begin(fem::FiniteNewton& newton, const FiniteDrive& drive, FiniteSolution& out) {
+  newton.start();
+  if (drive.rest_force.size() > 0) {
+    HX_ASSERT(!drive.places);
+    out.factorisations +=
+        newton.equilibrium(drive.rest_prescribed, drive.rest_force).factorisations;
+    out.solution.neutral = newton.displacement();
+  }
+}
+
 }  // namespace
 
 FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assembler,
@@ -163,13 +174,7 @@ FiniteSolution run_finite(fem::FiniteNewton& newton, const fem::Assembler& assem
     out.reactions.take(newton.time_s(), reactions);
   };
 
-  newton.start();
-  if (drive.rest_force.size() > 0) {
-    HX_ASSERT(!drive.places);
-    out.factorisations +=
-        newton.equilibrium(drive.rest_prescribed, drive.rest_force).factorisations;
-    out.solution.neutral = newton.displacement();
-  }
+  begin(newton, drive, out);
   if (drive.places) {
     out.reactions.nodes = drive.places->nodes;
     reactions.setZero(3 * Eigen::Index(out.reactions.nodes.size()));

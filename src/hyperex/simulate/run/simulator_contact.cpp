@@ -33,9 +33,8 @@ double Simulator::Impl::correct_linear(const ContactFrames& frames,
   std::vector<MouthContact::Correction> corrections(touching.size());
   progress.for_frames(touching.size(), [&](std::size_t i) {
     const std::size_t frame = touching[i];
-    corrections[i] =
-        contact.correct({frames.skin(frame), frames.at_sides(frame), frames.jaw(frame),
-                         frames.upper_teeth()});
+    corrections[i] = contact.correct(
+        {frames.skin(frame), frames.at_sides(frame), frames.jaw(frame), frames.upper_teeth()});
   });
   Eigen::MatrixXd force(3 * Eigen::Index(contact.nodes().size()), Eigen::Index(touching.size()));
   double residual_m = 0;

@@ -82,7 +82,9 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
       [this](std::size_t count, const auto& frame) { progress.for_frames(count, frame); });
   report.lip_overlap_mm = lips.overlap_mm;
   report.lip_gap_mm = lips.gap_mm;
-  note_driven_off(driven.off_m(p, points), p.driven_names);
+  // Surgery moves them away from where they were recorded.
+  if (p.neutral_displacement_m.rows() == 0)
+    note_driven_off(driven.off_m(p, points), p.driven_names);
 }
 
 void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,

@@ -86,8 +86,8 @@ struct Simulator::Impl {
   /// The load with the jaw's springs where moved bones have them.
   HeldLoad on_moved_bones(HeldLoad load) const;
   fem::Drive drive_by(const HeldLoad& forces, const MuscleOptions& muscles) const;
-  /// The displacement (all unknowns, m) of the face at rest by moved bones, in static equilibrium at
-  /// small strain; empty where none are moved.
+  /// The displacement (all unknowns, m) of the face at rest by moved bones, in static equilibrium
+  /// at small strain; empty where none are moved.
   Eigen::VectorXd neutral_at_small_strain();
   std::unique_ptr<fem::PartitionedFactor> contact_factor(const std::vector<int>& nodes) const;
 
@@ -107,8 +107,8 @@ struct Simulator::Impl {
   /// was run before.
   std::optional<fem::Response> response_by_gains(const fem::ReducedOptions& how);
   void report_solution(const Solution& solution);
-  /// Where bones are moved: adds the face at rest to displacements at small strain (at finite strain
-  /// they have it), and notes the skin at rest.
+  /// Where bones are moved: adds the face at rest to displacements at small strain (at finite
+  /// strain they have it), and notes the skin at rest.
   void place_neutral(bool finite, const PointCurve& points, Solution& solution,
                      Performance& performance);
 

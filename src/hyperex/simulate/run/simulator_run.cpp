@@ -39,10 +39,9 @@ std::optional<fem::Response> Simulator::Impl::response_by_gains(const fem::Reduc
   Eigen::Index most = 0;
   if (change.cwiseAbs().maxCoeff(&most) == 0) return {};
   const MuscleOptions as_was = as_recorded(options.muscles);
-  stages.recorded.ensure(
-      [&] {
-        return stages.factor->model.run(drive_by(on_moved_bones(stages.load.value()), as_was), how);
-      });
+  stages.recorded.ensure([&] {
+    return stages.factor->model.run(drive_by(on_moved_bones(stages.load.value()), as_was), how);
+  });
   // Different strengths of the same muscles add multiples of the same motion.
   const Eigen::VectorXd direction = change / change[most];
   stages.direction.set({direction.begin(), direction.end()});
@@ -172,8 +171,8 @@ void Simulator::Impl::place_neutral(bool finite, const PointCurve& points, Solut
   }
   const Eigen::Map<const Points> nodes(solution.neutral.data(), mesh->volume.nodes.rows(), 3);
   performance.upper_teeth_now_from_rest = stages.moved_bones->upper_teeth;
-  performance.neutral_displacement_m = stages.readout->skin(
-      stages.measured.value(), stages.points->rim, nodes, points.at(0));
+  performance.neutral_displacement_m =
+      stages.readout->skin(stages.measured.value(), stages.points->rim, nodes, points.at(0));
 }
 
 PointsF Simulator::Impl::still(double time_s) {
@@ -190,9 +189,9 @@ PointsF Simulator::Impl::still(double time_s) {
     ensure_factor();
     fem::ReducedModel& model = stages.factor->model;
     const Eigen::MatrixXd d =
-        by_forces() ? model.at_rest(
-                          force_at(on_moved_bones(stages.load.value()), options.muscles, time_s))
-                    : model.at_rest(stages.input->drive, in_steps({{time_s, 0}}));
+        by_forces()
+            ? model.at_rest(force_at(on_moved_bones(stages.load.value()), options.muscles, time_s))
+            : model.at_rest(stages.input->drive, in_steps({{time_s, 0}}));
     nodes = Eigen::Map<const Points>(d.data(), nodes.rows(), 3);
     if (const Eigen::VectorXd rest = neutral_at_small_strain(); rest.size() > 0)
       nodes += Eigen::Map<const Points>(rest.data(), nodes.rows(), 3);

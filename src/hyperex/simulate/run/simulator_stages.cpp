@@ -78,7 +78,7 @@ void Simulator::Impl::ensure_moved_bones() {
     out->any = true;
     out->prescribed = moved.prescribed_by_bones();
     out->force = moved.forces_of_bones();
-    out->jaw_force = moved.unit_forces_of_jaw();
+    out->jaw_force_change = moved.unit_forces_of_jaw() - stages.boundary->unit_forces_of_jaw();
     out->upper_teeth = cuts.upper_teeth();
     out->lower_teeth = cuts.lower_teeth();
     return std::shared_ptr<const MovedBones>(std::move(out));
@@ -87,7 +87,7 @@ void Simulator::Impl::ensure_moved_bones() {
 
 HeldLoad Simulator::Impl::on_moved_bones(HeldLoad load) const {
   if (options.drive.by == DriveBy::muscles && stages.moved_bones->any)
-    load.force.middleCols<12>(jaw_row(load)) = stages.moved_bones->jaw_force;
+    load.force.middleCols<12>(jaw_row(load)) += stages.moved_bones->jaw_force_change;
   return load;
 }
 

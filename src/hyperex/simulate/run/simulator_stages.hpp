@@ -45,7 +45,9 @@ struct ReducedFactor {
 struct MovedBones {
   bool any = false;
   Eigen::VectorXd prescribed, force;  ///< m, as Boundary::prescribed(); N, all unknowns
-  Eigen::MatrixXd jaw_force;          ///< as MuscleModel::jaw_force(), where the jaw now lies
+  /// What is added to the forces of unit motions of the jaw (Boundary::unit_forces_of_jaw), as it
+  /// now lies elsewhere.
+  Eigen::MatrixXd jaw_force_change;
   Eigen::Isometry3d upper_teeth = Eigen::Isometry3d::Identity(),
                     lower_teeth = Eigen::Isometry3d::Identity();
 };
@@ -158,10 +160,10 @@ struct SimulatorStages : StageGraph {
                         {motion, measured, drive, drive_gain, muscles, reaction_steps,
                          unless_held(driven), unless_held(muscle_model), unless_held(pattern),
                          unless_held(support), unless_held(tissue), unless_held(model)}};
-  Cached<InputShapes> input{*this,
-                            "input",
-                            {motion, boundary, moved_bones, load, drive_gain, gains, muscles, step,
-                             end, tolerance}};
+  Cached<InputShapes> input{
+      *this,
+      "input",
+      {motion, boundary, moved_bones, load, drive_gain, gains, muscles, step, end, tolerance}};
   Cached<List<ObstaclePlaces>> places{*this, "obstacle places", {obstacles, bodies}};
 
   // ----- what each simulator has for itself
@@ -170,10 +172,10 @@ struct SimulatorStages : StageGraph {
   Owned<fem::Newmark> full{
       *this, "full model", {pattern, order, prescribed, newmark, step, refill(values)}};
   // Gains: the response to the load as it was recorded, and what they add to it.
-  Owned<fem::Response> recorded{*this,
-                                "motion as recorded",
-                                {factor, boundary, moved_bones, load, muscles, newmark, step, end,
-                                 tolerance}};
+  Owned<fem::Response> recorded{
+      *this,
+      "motion as recorded",
+      {factor, boundary, moved_bones, load, muscles, newmark, step, end, tolerance}};
   /// The change of each muscle's gain over the greatest of them.
   Checked<std::vector<double>> direction{*this, "direction of the gains", {gains}};
   Owned<fem::Drive> added_drive{

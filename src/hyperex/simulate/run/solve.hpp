@@ -11,7 +11,7 @@ namespace hyperex::simulate {
 
 /// Displacements of all unknowns at given times.
 struct Solution {
-  Eigen::VectorXd neutral;  ///< the face at rest on moved bones, m; empty: none are moved
+  Eigen::VectorXd neutral;       ///< the face at rest on moved bones, m; empty: none are moved
   Eigen::MatrixXd displacement;  ///< 3 |nodes| x |times|, m
   int free_dofs = 0, basis_size = 0;
   double estimated_error = -1;  ///< of the reduced model, over the greatest displacement

@@ -30,8 +30,7 @@ void limit_slope(const TriMesh& outer, const std::vector<std::vector<int>>& arou
     open.pop();
     if (value > depth[v]) continue;
     for (const int w : around[std::size_t(v)]) {
-      const double most =
-          value + kSteepest * (outer.points.row(v) - outer.points.row(w)).norm();
+      const double most = value + kSteepest * (outer.points.row(v) - outer.points.row(w)).norm();
       if (depth[w] <= most) continue;
       depth[w] = most;
       open.emplace(most, w);

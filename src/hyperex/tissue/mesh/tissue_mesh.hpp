@@ -147,7 +147,8 @@ class TissueMeshBuilder {
 /// from the mouth, and builds the layer. `landmarks` must hold the 68 iBUG points
 /// (complete_landmarks). `source` names the scan in errors. `held`, per scan vertex: thinning keeps
 /// it (empty: none). `bones`: the layer ends on them where they lie at most kDeepestBone_m under
-/// the skin (bone_depth.hpp); null: none are known. Throws InputError where the scan cannot be used.
+/// the skin (bone_depth.hpp); null: none are known. Throws InputError where the scan cannot be
+/// used.
 TissueMesh build_tissue_mesh(const TriMesh& scan, const io::Landmarks& landmarks,
                              const TissueMeshOptions& options, const std::string& source,
                              const std::vector<char>& held = {},
