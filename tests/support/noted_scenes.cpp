@@ -4,8 +4,10 @@
 #include <sstream>
 
 #include "apps/good_inputs.hpp"
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/capture/video_writer.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/io/scan.hpp"
 #include "support/rendered_clip.hpp"
 
 namespace hyperex::test {
@@ -112,6 +114,42 @@ void press_the_lips(const fs::path& folder) {
   });
 }
 
+/// The face itself, `behind_m` behind the skin: a bone without a shape.
+TriMesh mask(double behind_m) {
+  TriMesh out = anatomy::embedded_face().mesh;
+  out.points.col(2).array() -= behind_m;
+  return out;
+}
+
+void write_skull(const fs::path& folder) {
+  io::write_ply(folder / "skull.ply", mask(0.008), io::LengthUnit::millimetre);
+}
+
+void write_skull_and_mandible(const fs::path& folder) {
+  write_skull(folder);
+  io::write_ply(folder / "mandible.ply", mask(0.01), io::LengthUnit::millimetre);
+}
+
+/// A part of it lies in front of the skin.
+void write_skull_that_sticks_out(const fs::path& folder) {
+  TriMesh skull = mask(0.008);
+  const Vec3 nose = good_landmarks().at(face::ibug(30));
+  for (Eigen::Index v = 0; v < skull.points.rows(); ++v)
+    if ((skull.points.row(v).transpose() - nose).norm() < 0.018) skull.points(v, 2) += 0.014;
+  io::write_ply(folder / "skull.ply", skull, io::LengthUnit::millimetre);
+}
+
+void write_ct_of_another_face(const fs::path& folder) {
+  write_skull(folder);
+  TriMesh skin = mask(0);
+  skin.points.col(0) *= 1.4;
+  io::write_ply(folder / "skin.ply", skin, io::LengthUnit::millimetre);
+  io::Landmarks landmarks;
+  for (const char* name : {"pronasale", "subnasale", "nasion", "pogonion"})
+    landmarks[name] = anatomy::embedded_face().landmarks.at(name);
+  io::write_landmarks(folder / "landmarks.json", landmarks, io::LengthUnit::millimetre);
+}
+
 }  // namespace
 
 const std::vector<NotedScene>& noted_scenes() {
@@ -132,6 +170,14 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
       {"sides.exchanged_pair", true, "", exchange_the_corners},
+      {"anatomy.no_mandible", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
+       write_skull},
+      {"anatomy.no_condyles", true,
+       "anatomy.skull=\"skull.ply\"\nanatomy.mandible=\"mandible.ply\"\nanatomy.unit=\"mm\"",
+       write_skull_and_mandible},
+      {"anatomy.bone_outside", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
+       write_skull_that_sticks_out},
+      {"anatomy.ct_fits_badly", true, "anatomy.ct=\".\"", write_ct_of_another_face},
       {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},
       {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
       {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
