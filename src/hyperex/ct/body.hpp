@@ -22,10 +22,10 @@ struct Body {
 /// skin's in 95 % of the slices are couch where they lie together, are at most 30 mm thick and
 /// reach more than 8 mm outside the outline of the rest. 2.5 mm around them are removed with them,
 /// so that a head that rests on a couch has a flat place there. Stacks lower than 60 mm are not
-/// searched. The head is the largest connected piece of what remains. Air counts as inside the
-/// head where a ball of 8 mm cannot reach it from outside, and where it lies at least 6 mm deep or
-/// is closed all around. Throws
-/// InputError, naming `source`, where nothing is left.
+/// searched for a couch. After the couch is removed, the head is the largest connected piece. Air
+/// belongs to the head if a ball of 8 mm cannot reach it from outside and if it is either at least
+/// 6 mm below the surface or completely enclosed. Throws InputError, naming `source`, if nothing is
+/// left.
 Body find_body(const Volume& volume, const Thresholds& thresholds, const std::string& source);
 
 }  // namespace hyperex::ct

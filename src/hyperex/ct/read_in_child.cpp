@@ -117,7 +117,7 @@ template <class T>
 
 template <class T>
 std::optional<T> in_child(const std::function<std::optional<T>()>& work) {
-  itk_library();  // its absence is told by the parent
+  itk_library();  // loaded before the fork, so that the parent reports if it is missing
   SharedFile file;
   sigset_t all, before;
   sigfillset(&all);

@@ -141,8 +141,8 @@ json get_value(const KeyInfo&, const Source& member) {
   return member.embedded ? std::string("embedded") : member.file.generic_string();
 }
 
-/// Strictly rising numbers, or a vector of so many. Where at most two are allowed, a single number
-/// needs no brackets.
+/// A list of numbers. They must rise strictly, unless the key takes a fixed count (the components
+/// of a vector). Where at most two are allowed, a single number needs no brackets.
 Complaints set_value(const Given& given, std::vector<double>& member) {
   const KeyInfo& key = given.key;
   json list = given.value;

@@ -108,10 +108,11 @@ class Boundary {
     Eigen::Matrix3d stiffness;  // N/m
     Holder holder;
     enum Target { rest, jaw, field } target;
-    int row;                   // of the field
-    Vec3 at = Vec3::Zero();    // of the jaw: the place on it that the spring follows
-    double share = 1;          // of that place's displacement
-    Vec3 base = Vec3::Zero();  // displacement of what holds it, by moved bones
+    int row;                 // of the field
+    Vec3 at = Vec3::Zero();  // of the jaw: the place on it that the spring follows
+    double share = 1;        // of that place's displacement
+    /// Displacement of the spring's fixed end, caused by bones that surgery moved (m).
+    Vec3 base = Vec3::Zero();
   };
   struct Fixed {
     int node;
