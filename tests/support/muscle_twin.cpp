@@ -56,7 +56,7 @@ TwinTruth::TwinTruth(const TwinFace& face, const muscles::MuscleTable& muscles, 
     : changes_(changes),
       half_(face.options.muscles.half),
       young_factor_(young_factor),
-      jaw_(face.landmarks),
+      jaw_(face.landmarks, nullptr),
       points_(std::move(points)) {
   rest_.resize(Eigen::Index(points_.size()), 3);
   for (Eigen::Index p = 0; p < rest_.rows(); ++p)

@@ -184,7 +184,7 @@ std::shared_ptr<const anatomy::Bones> read_bones(const scene::Scene& scene, cons
   if (landmarks.empty()) return nullptr;
   std::optional<anatomy::Condyles> condyles;
   if (mandible.triangles.rows() > 0) {
-    const simulate::JawHinge hinge(landmarks);
+    const simulate::JawHinge hinge(landmarks, nullptr);
     condyles = anatomy::find_condyles(mandible, hinge.frame, hinge.centre);
     notes.push_back(
         condyles

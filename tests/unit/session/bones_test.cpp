@@ -10,7 +10,7 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/read_bones.hpp"
-#include "hyperex/simulate/drive/support.hpp"
+#include "support/estimated_bones.hpp"
 #include "support/refusal.hpp"
 #include "support/test_file.hpp"
 
@@ -31,33 +31,6 @@ by = "muscles"
 frame_rate_hz = 5
 )";
 
-/// The inner surface of a mesh over one bone, as the program estimates it: of each triangle, the
-/// thirds of the corners that lie over this bone.
-TriMesh estimated(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                  anatomy::Bone bone) {
-  const std::vector<anatomy::Bone> under = simulate::bones_under(mesh, landmarks);
-  const Triangles& all = mesh.volume.outer.triangles;
-  std::vector<Vec3> corners;
-  for (Eigen::Index f = 0; f < all.rows(); ++f) {
-    const auto at = [&](int k) -> Vec3 {
-      return mesh.volume.nodes.row(mesh.volume.inner_node(all(f, k % 3)));
-    };
-    const Vec3 middle = (at(0) + at(1) + at(2)) / 3;
-    for (int k = 0; k < 3; ++k) {
-      if (under[std::size_t(all(f, k))] != bone) continue;
-      const Vec3 next = (at(k) + at(k + 1)) / 2, last = (at(k) + at(k + 2)) / 2;
-      corners.insert(corners.end(), {at(k), next, middle, at(k), middle, last});
-    }
-  }
-  TriMesh out{Points(Eigen::Index(corners.size()), 3),
-              Triangles(Eigen::Index(corners.size() / 3), 3)};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    out.points.row(Eigen::Index(i)) = corners[i];
-    out.triangles(Eigen::Index(i / 3), Eigen::Index(i % 3)) = int(i);
-  }
-  return out;
-}
-
 class OwnBones : public testing::Test {
  protected:
   static FaceSession session(const std::string& more) {
@@ -75,7 +48,8 @@ class OwnBones : public testing::Test {
     };
     for (const auto& [name, bone] : {std::pair{"skull.ply", anatomy::Bone::skull},
                                      std::pair{"mandible.ply", anatomy::Bone::mandible}})
-      io::write_ply(folder_ / name, moved(estimated(plain.mesh(), plain.inputs().landmarks, bone)),
+      io::write_ply(folder_ / name,
+                    moved(test::estimated_bone(plain.mesh(), plain.inputs().landmarks, bone)),
                     io::LengthUnit::millimetre);
     TriMesh skin = anatomy::embedded_face().mesh;
     skin.points.array() *= 1 + 0.01 * skin_off_mm;
@@ -139,7 +113,7 @@ TEST_F(OwnBones, ThatAreTheEstimatedOnesKeepTheErrorsOfSubjectA) {
     for (const auto& [name, bone] : {std::pair{"skull", anatomy::Bone::skull},
                                      std::pair{"mandible", anatomy::Bone::mandible}}) {
       const fs::path file = folder_ / (std::string(name) + ".ply");
-      io::write_ply(file, estimated(plain.mesh(), plain.inputs().landmarks, bone),
+      io::write_ply(file, test::estimated_bone(plain.mesh(), plain.inputs().landmarks, bone),
                     io::LengthUnit::millimetre);
       bones.push_back(std::string("anatomy.") + name + "=" + file.string());
     }

@@ -126,7 +126,7 @@ TEST_F(BoundaryTest, SpringsOfTheJawPullToWhereItTurns) {
   const Points d = displacement(4);
   b.prescribe(d, b.follow(d), values, force);
   EXPECT_GT(b.jaw_opening_deg(), 5);
-  Jaw jaw(face_.landmarks);
+  Jaw jaw(face_.landmarks, nullptr);
   const int chin = motion_.motion.index_of("ibug68_8");
   const Eigen::Isometry3d turn = jaw.follow(Points(motion_.rest.row(chin)), Points(d.row(chin)));
   const Points& x = face_.mesh.volume.nodes;

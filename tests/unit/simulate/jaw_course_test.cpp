@@ -6,9 +6,11 @@
 #include <cmath>
 
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/drive/jaw.hpp"
 #include "hyperex/simulate/drive/point_curve.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
+#include "support/estimated_bones.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -76,6 +78,27 @@ TEST(JawOfAMeasuredFace, IsTheChinsWhereAllIsMeasured) {
   options.region.measured = Measured::all;
   const SimulationResult result = simulate(face.mesh, face.landmarks, motion, options);
   EXPECT_GT(Eigen::AngleAxisd(result.performance.jaw_now_from_rest[6].linear()).angle(), 0.12);
+}
+
+TEST(JawOfOwnBones, TakesTheDrivenPointsWhereTheyAreDriven) {
+  const test::SmallFace face = test::small_face();
+  const AlignedMotion motion = test::mouth_opening(face.landmarks, 10, 13, 30);
+  SimulationOptions options;
+  options.drive.by = DriveBy::muscles;
+  options.drive.points = test::seven_points();
+  const JawHinge estimated(face.landmarks, nullptr);
+  for (const double back_m : {0.0, 0.025}) {
+    const Vec3 centre = estimated.centre - back_m * estimated.frame.z;
+    const Vec3 half = 0.05 * estimated.frame.x;
+    tissue::TissueMesh mesh = face.mesh;
+    mesh.bones = std::make_shared<const anatomy::Bones>(
+        hyperex::test::estimated_bone(face.mesh, face.landmarks, Bone::skull),
+        hyperex::test::estimated_bone(face.mesh, face.landmarks, Bone::mandible),
+        anatomy::Condyles{centre + half, centre - half});
+    const SimulationResult result = simulate(mesh, face.landmarks, motion, options);
+    EXPECT_GT(result.report.greatest_opening_deg, 5);
+    EXPECT_LT(result.report.driven_off_mm, 0.5) << "heads " << back_m << " m farther back";
+  }
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ class JawTest : public testing::Test {
 TEST_F(JawTest, RecoversAnOpening) {
   for (const auto& chin : {points({8}), points({6, 7, 8, 9, 10})})
     for (const double degrees : {1.0, 12.0, 30.0}) {
-      Jaw jaw(landmarks_);
+      Jaw jaw(landmarks_, nullptr);
       const Eigen::Isometry3d truth = opened(degrees);
       const Points d = carried(truth, chin);
       EXPECT_LT(d(0, 1), 0) << "a turn about the subject's left lowers the chin";
@@ -62,13 +62,13 @@ TEST_F(JawTest, TurnsAboutTheCondylesOfGivenBones) {
   Jaw jaw(landmarks_, &bones);
   const Eigen::Isometry3d truth = opened(15, 0.012);
   EXPECT_LT((jaw.follow(chin, carried(truth, chin)).matrix() - truth.matrix()).norm(), 1e-7);
-  Jaw other(landmarks_);
+  Jaw other(landmarks_, nullptr);
   EXPECT_GT((other.follow(chin, carried(truth, chin)).matrix() - truth.matrix()).norm(), 1e-4);
 }
 
 TEST_F(JawTest, FollowsAMotionBackToRest) {
   const Points chin = points({6, 7, 8, 9, 10});
-  Jaw jaw(landmarks_);
+  Jaw jaw(landmarks_, nullptr);
   for (const double degrees : {0.0, 4.0, 11.0, 14.0, 6.0, 0.0}) {
     const Eigen::Isometry3d truth = opened(degrees);
     EXPECT_LT((jaw.follow(chin, carried(truth, chin)).matrix() - truth.matrix()).norm(), 1e-7);
@@ -77,7 +77,7 @@ TEST_F(JawTest, FollowsAMotionBackToRest) {
 
 TEST_F(JawTest, StaysExactlyWithoutMotion) {
   const Points chin = points({7, 8, 9});
-  Jaw jaw(landmarks_);
+  Jaw jaw(landmarks_, nullptr);
   const Eigen::Isometry3d found = jaw.follow(chin, Points::Zero(3, 3));
   EXPECT_EQ(carried(found, chin).cwiseAbs().maxCoeff() < 1e-12, true);
   EXPECT_EQ(jaw.opening_deg(), 0);
@@ -87,7 +87,7 @@ TEST_F(JawTest, IsRigidWhateverThePointsDo) {
   const Points chin = points({5, 6, 7, 8, 9, 10, 11});
   std::mt19937 generator(3);
   std::uniform_real_distribution<double> unit(-0.02, 0.02);
-  Jaw jaw(landmarks_);
+  Jaw jaw(landmarks_, nullptr);
   for (int round = 0; round < 20; ++round) {
     Points d(chin.rows(), 3);
     for (double& x : d.reshaped()) x = unit(generator);
@@ -101,7 +101,7 @@ TEST_F(JawTest, SlidesToTheSideButReluctantly) {
   const Points chin = points({6, 7, 8, 9, 10});
   Points d(chin.rows(), 3);
   d.rowwise() = (0.006 * frame_.x).transpose();
-  Jaw jaw(landmarks_);
+  Jaw jaw(landmarks_, nullptr);
   const Eigen::Isometry3d found = jaw.follow(chin, d);
   const Points by = carried(found, chin);
   const double along = (by * frame_.x).mean();
@@ -112,7 +112,7 @@ TEST_F(JawTest, SlidesToTheSideButReluctantly) {
 
 TEST_F(JawTest, NeedsItsLandmarks) {
   landmarks_.erase(ibug(15));
-  EXPECT_THROW(Jaw{landmarks_}, std::out_of_range);
+  EXPECT_THROW((Jaw{landmarks_, nullptr}), std::out_of_range);
 }
 
 }  // namespace

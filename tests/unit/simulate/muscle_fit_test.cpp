@@ -57,7 +57,7 @@ class FitOfPoints : public testing::Test {
   static std::vector<char> all(int muscles) { return std::vector<char>(std::size_t(muscles), 1); }
 
   const io::Landmarks landmarks_ = test::small_face().landmarks;
-  const JawKinematics jaw_{landmarks_};
+  const JawKinematics jaw_{landmarks_, nullptr};
   const FitPriors wide_{1e3, 1e3, 1e3, 1e3, 1e3, 1e3, 1e3};
   std::mt19937 random_{3};
   std::normal_distribution<double> normal_;

@@ -68,7 +68,7 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
   for (int p = 0; p < 68; ++p) rest.row(p) = face_.landmarks.at(face::ibug(p)).transpose();
   const CarrierMatrix carrier =
       carriers(face_.mesh, skin_places(face_.mesh, face::all_ibug(), rest));
-  const JawKinematics jaw(face_.landmarks);
+  const JawKinematics jaw(face_.landmarks, nullptr);
   std::normal_distribution<double> normal;
   AlignedMotion motion;
   motion.motion.names = motion.common = face::all_ibug();

@@ -149,7 +149,7 @@ TEST_F(Surgery, MovesAddUpAndTheChinGoesWithTheMandible) {
   EXPECT_LT((local(by.transpose()) - Vec3(0, 0.002, 0.009)).norm(), 1e-12);
   EXPECT_LT((local((cuts.lower_teeth() * chin - chin).transpose()) - Vec3(0, 0, 0.006)).norm(),
             1e-12);
-  const Vec3 condyle = JawHinge(face_.landmarks).centre;
+  const Vec3 condyle = JawHinge(face_.landmarks, nullptr).centre;
   EXPECT_TRUE(cuts.motion(Bone::mandible, condyle).isApprox(Eigen::Isometry3d::Identity()))
       << "behind the cut";
   EXPECT_TRUE(cuts.motion(Bone::skull, chin).isApprox(Eigen::Isometry3d::Identity()));
@@ -160,7 +160,7 @@ TEST_F(Surgery, TurnsHaveTheSignsThatTheyAreDescribedWith) {
   const auto turned = [&](std::vector<double> degrees, const Vec3& offset) {
     const Osteotomies cuts({move_of(BonePart::mandible, {0, 0, 0}, BoneCut::whole, degrees)},
                            face_.landmarks);
-    const Vec3 at = JawHinge(face_.landmarks).centre + offset;
+    const Vec3 at = JawHinge(face_.landmarks, nullptr).centre + offset;
     return local((cuts.motion(Bone::mandible, at) * at - at).transpose());
   };
   EXPECT_LT(turned({5, 0, 0}, 0.08 * frame_.z).y(), -0.005) << "the front turns down";

@@ -16,7 +16,7 @@ struct JawHinge {
 
   /// Through the condyles of `bones` where they are known (null: no bones). Otherwise the axis is
   /// transverse, and its centre the middle between ibug68_1 and ibug68_15.
-  explicit JawHinge(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr);
+  explicit JawHinge(const io::Landmarks& landmarks, const anatomy::Bones* bones);
   /// The rotation by an opening, a turn to the side and a tilt, rad.
   Eigen::Matrix3d turned(double opening, double turn, double tilt = 0) const;
 };
@@ -43,7 +43,7 @@ Eigen::MatrixXd central_differences(const Function& f, const Vector& at) {
 /// and opening is not.
 class Jaw {
  public:
-  explicit Jaw(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr);
+  explicit Jaw(const io::Landmarks& landmarks, const anatomy::Bones* bones);
 
   /// The displacement that carries `rest` (n x 3, m) nearest to `rest + displacement`. The search
   /// starts from the last answer.

@@ -22,7 +22,7 @@ constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 
 class BoneMap {
  public:
-  explicit BoneMap(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr)
+  explicit BoneMap(const io::Landmarks& landmarks, const anatomy::Bones* bones)
       : frame_(face::face_frame(landmarks)) {
     for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(face::ibug(k))));
     for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(face::ibug(k))));
@@ -128,7 +128,7 @@ std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh, const io::Landm
   const auto& volume = mesh.volume;
   std::vector<char> out(volume.surface_nodes(), 1);
   if (!mesh.bones) return out;
-  const BoneMap map(landmarks);
+  const BoneMap map(landmarks, nullptr);
   for (int v = 0; v < volume.surface_nodes(); ++v)
     out[v] =
         map.edge_from(volume.nodes.row(v)).below ||
@@ -137,7 +137,7 @@ std::vector<char> backed_by_bone(const tissue::TissueMesh& mesh, const io::Landm
 }
 
 std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  const BoneMap map(landmarks);
+  const BoneMap map(landmarks, nullptr);
   std::vector<EdgeOfJaw> out;
   for (int v = 0; v < mesh.volume.surface_nodes(); ++v)
     out.push_back(map.edge_from(mesh.volume.nodes.row(v)));
@@ -146,7 +146,7 @@ std::vector<EdgeOfJaw> edge_of_jaw(const tissue::TissueMesh& mesh, const io::Lan
 
 std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
                                       const io::Landmarks& landmarks) {
-  const BoneMap map(landmarks);
+  const BoneMap map(landmarks, nullptr);
   const Points& skin = mesh.volume.outer.points;
   std::vector<double> distances(skin.rows());
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
@@ -155,7 +155,7 @@ std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
 }
 
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
-  const BoneMap map(landmarks);
+  const BoneMap map(landmarks, nullptr);
   const Points& skin = mesh.volume.outer.points;
   std::vector<char> near(skin.rows());
   for (Eigen::Index v = 0; v < skin.rows(); ++v)

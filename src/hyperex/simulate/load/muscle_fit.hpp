@@ -17,7 +17,7 @@ using JawPose = Eigen::Matrix<double, 6, 1>;
 /// Boundary::JawMotion.
 class JawKinematics {
  public:
-  explicit JawKinematics(const io::Landmarks& landmarks, const anatomy::Bones* bones = nullptr)
+  explicit JawKinematics(const io::Landmarks& landmarks, const anatomy::Bones* bones)
       : hinge_(landmarks, bones) {}
   Eigen::Matrix<double, 12, 1> motion(const JawPose& pose) const;
   Eigen::Matrix<double, 12, 6> derivative(const JawPose& pose) const;

@@ -70,8 +70,8 @@ Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& mot
   return out;
 }
 
-MuscleFit fit_of(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                 const MuscleModel& model, const Driven& driven, const MuscleOptions& options) {
+MuscleFit fit_of(const MuscleModel& model, const JawKinematics& jaw, const Driven& driven,
+                 const MuscleOptions& options) {
   const double sigma = driven.few() ? options.few_sigma_m : options.many_sigma_m;
   std::vector<char> tone, ring;
   for (const muscles::MuscleLine& line : model.lines()) {
@@ -82,8 +82,7 @@ MuscleFit fit_of(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   return MuscleFit(
       {at_places(driven.carrier, model.response()), at_places(driven.carrier, model.jaw_response()),
        at_places(driven.carrier, model.wide_response()), options.half},
-      JawKinematics(landmarks, mesh.bones.get()), muscle_prior(model.lines(), options), sigma,
-      std::move(tone), std::move(ring));
+      jaw, muscle_prior(model.lines(), options), sigma, std::move(tone), std::move(ring));
 }
 
 /// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points
@@ -263,8 +262,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
   const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
-  MuscleFit fit = fit_of(mesh, landmarks, model, driven, options.muscles);
-  const JawKinematics jaw(landmarks);
+  const JawKinematics jaw(landmarks, mesh.bones.get());
+  MuscleFit fit = fit_of(model, jaw, driven, options.muscles);
 
   HeldLoad load;
   const auto count = static_cast<Eigen::Index>(model.lines().size());
