@@ -15,9 +15,12 @@ namespace {
 
 constexpr std::size_t kMostSteps = 500;
 
-bool changes_muscles(const json& changes) {
+/// Whether the changes need forces that drive the face.
+bool need_muscles(const json& changes) {
   for (const auto& [key, value] : changes.items())
-    if (key.rfind("muscles.", 0) == 0 && !value.is_null()) return true;
+    if ((key.rfind("muscles.", 0) == 0 || key == "surgery.bone") && !value.is_null() &&
+        !(value.is_array() && value.empty()))
+      return true;
   return false;
 }
 
@@ -75,7 +78,7 @@ std::string Session::text_with_changes(const json& wanted, int face) {
     if (!scene::find_key(key)) throw InputError(key + ": no key of a scene");
     changes[key] = with_uploads(key, value, uploads(), known);
   }
-  if (changes_muscles(changes) && session::drive_choice(committed).by != simulate::DriveBy::muscles)
+  if (need_muscles(changes) && session::drive_choice(committed).by != simulate::DriveBy::muscles)
     text = scene::with_value(text, "drive.by", "muscles");
   if (face == 0) {
     for (const auto& [key, value] : changes.items()) text = scene::with_value(text, key, value);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "bones_message.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -51,6 +52,7 @@ void Session::send_motion(Stopwatch& watch) {
            {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
     head["landmarks"] = landmarks;
     head["muscles"] = muscles_json(face_->scene().muscles.table());
+    head["bones"] = bones_json(face_->session().mesh(), face_->inputs().landmarks, block);
     const Eigen::VectorXf thickness = face_->unpainted_mm();
     head["thickness"] = block.add("float32", thickness.data(), std::size_t(thickness.size()));
   }

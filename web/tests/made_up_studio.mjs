@@ -87,6 +87,16 @@ const keys = [
 ];
 const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'muscles.gain': {}, 'tissue.region': [], 'motion.file': 'own.csv', 'motion.rigid_points': ['band_1', 'band_2', 'band_3'] };
 
+const segment = (part, cut, turns_about, plane_at, plane_normal) => ({ part, cut, turns_about, plane_at, plane_normal, half_width_m: 0, ends_at: null });
+/** Without the person's own bones. */
+const bones = {
+  axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], skull: null, mandible: null,
+  segments: [
+    segment('skull', 'whole', [0, 0, 0], [0, 0, 0], [0, 0, 0]), segment('maxilla', 'le_fort_1', [0, 0.01, 0.07], [0, 0.02, 0.07], [0, -1, 0]),
+    segment('mandible', 'bsso', [0, -0.02, 0.07], [0, -0.02, 0.03], [0, 0, 1]), segment('chin', 'genioplasty', [0, -0.05, 0.06], [0, -0.04, 0.06], [0, -1, 0]),
+  ],
+};
+
 /** What a session does with requests, as far as the page needs it. `remarksOf(faces)`: those on its motion. */
 class Session {
   faces = [{ name: 'base', values: defaults }];
@@ -110,7 +120,7 @@ class Session {
     const block = new Block();
     const replay = replayOf(block, { faces: this.faces, remarks: this.remarksOf(this.faces) });
     const head = event === 'face'
-      ? { landmarks: [], muscles: { muscles, names: [] }, thickness: block.add('float32', new Float32Array(side * side).fill(8)) }
+      ? { landmarks: [], muscles: { muscles, names: [] }, bones, thickness: block.add('float32', new Float32Array(side * side).fill(8)) }
       : { table: [], seconds: 0.1, bands: false };
     this.socket.send(binary({ event, replay, activations: null, ...head }, block));
   }

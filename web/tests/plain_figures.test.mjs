@@ -201,3 +201,27 @@ test('the wheel zooms about the pointer, and the list of keys tells what the poi
   for (const key of ['Drag', 'Right-drag', 'Wheel']) assert.ok(keys.includes(key), keys.join());
   await close();
 });
+
+test('surgery: a table of what it does to the face at rest, with published ratios, and its change in words', async () => {
+  const { page, complaints, close } = await changedPage((data) => {
+    const move = (landmark, at_rest_mm, more = {}) => ({ landmark, at_rest_mm, expression_before_mm: [0, -9, -2], expression_after_mm: [0.01, -9.5, -2], ...more });
+    Object.assign(data.summary.variants.table[1], {
+      surgery: { landmarks: [
+        move('pogonion', [0.02, -0.42, 5.61], { soft_per_bone: 0.935, published: { usual: 1, low: 0.8, high: 1.33, source: 'twenty papers' } }), move('stomion', [0, 0, 0.01]),
+      ] },
+      changes: { 'surgery.bone': [{ part: 'mandible', cut: 'standard', move_mm: [0, 0, 6], turn_deg: [-2, 0, 0], cut_shift_mm: 0 }] },
+    });
+    data.variants[0].upper_teeth = [0, 0, 0, 1, 0, 0, 0.004];
+  });
+  const card = page.locator('.figures.surgery');
+  const row = card.locator('tbody tr', { hasText: /pogonion/i });
+  const cells = await row.locator('td').allInnerTexts();
+  assert.deepEqual(cells.map((text) => text.split(/\s*\n\s*/)), [
+    ['5.6', '5.6 forward, 0.4 down'], ['0.94'], ['1.00', '0.80 to 1.33'], ['9.2', '9.0 down, 2.0 back'], ['9.7', '9.5 down, 2.0 back'],
+  ]);
+  assert.equal(await row.locator('td').nth(2).getAttribute('title'), 'twenty papers');
+  assert.match(await card.locator('tbody tr', { hasText: /stomion/i }).locator('td').nth(2).innerText(), /–/);
+  assert.match(await page.locator('.figures.variants').innerText(), /Mandible 6 mm forward, front 2 deg up/);
+  assert.deepEqual(complaints, []);
+  await close();
+});

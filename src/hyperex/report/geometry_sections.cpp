@@ -156,6 +156,14 @@ json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, BinaryBlock
   return section;
 }
 
+json upper_teeth_section(const simulate::Performance& performance) {
+  const Eigen::Isometry3d& moved = performance.upper_teeth_now_from_rest;
+  if (moved.isApprox(Eigen::Isometry3d::Identity(), 1e-9)) return nullptr;
+  const Eigen::Quaterniond turn(moved.linear());
+  const Vec3 by = moved.translation();
+  return {turn.x(), turn.y(), turn.z(), turn.w(), by.x(), by.y(), by.z()};
+}
+
 json jaw_section(const simulate::Performance& performance, BinaryBlock& block) {
   std::vector<float> values;
   Eigen::Quaterniond before = Eigen::Quaterniond::Identity();

@@ -27,6 +27,10 @@ nlohmann::json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, B
 /// Frames x 7: a quaternion x y z w and a translation, now_from_rest.
 nlohmann::json jaw_section(const simulate::Performance& performance, BinaryBlock& block);
 
+/// The pose that surgery gave the upper teeth, now_from_rest: a quaternion x y z w and a
+/// translation (m), 7 numbers. Null where it did not move them.
+nlohmann::json upper_teeth_section(const simulate::Performance& performance);
+
 /// Adds "openings" and "eyeballs" of the skin at rest. Returns the direction the face looks in.
 Vec3 add_backing(const ReportInput& input, BinaryBlock& block, nlohmann::json& manifest);
 

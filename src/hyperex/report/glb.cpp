@@ -36,6 +36,15 @@ void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
   for (int k = 0; k < 3; ++k) model.nodes[std::size_t(node)].translation.push_back(shifts(0, k));
 }
 
+/// Puts the upper teeth where surgery put them.
+void place_upper_teeth(tinygltf::Node& node, const Eigen::Isometry3d& now_from_rest) {
+  if (now_from_rest.isApprox(Eigen::Isometry3d::Identity(), 1e-9)) return;
+  const Eigen::Vector4d turn = Eigen::Quaterniond(now_from_rest.linear()).coeffs();
+  const Vec3 shift = now_from_rest.translation();
+  node.rotation.assign(turn.begin(), turn.end());  // x y z w
+  node.translation.assign(shift.begin(), shift.end());
+}
+
 void check_glb(const simulate::Performance& performance, const GlbOptions& options) {
   bool whole = performance.skin_displacement_m.size() == performance.frame_time_s.size();
   for (const PointsF& frame : performance.skin_displacement_m)
@@ -91,7 +100,11 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   const FaceBacking backing = face_backing(performance, options.teeth);
   FaceNodes nodes;
   add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
-  if (options.teeth) add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
+  if (options.teeth) {
+    add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
+    place_upper_teeth(model.nodes[std::size_t(nodes.upper_teeth)],
+                      performance.upper_teeth_now_from_rest);
+  }
 
   tinygltf::Mesh mesh;
   mesh.name = "skin";

@@ -196,8 +196,11 @@ json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {
   if (!performance.muscles.names.empty()) manifest["muscles"] = muscle_section(input);
   if (input.teeth) {
     manifest["motion"]["jaw"] = jaw_section(performance, block);
-    for (std::size_t i = 0; i < input.variants.size(); ++i)
+    manifest["motion"]["upper_teeth"] = upper_teeth_section(performance);
+    for (std::size_t i = 0; i < input.variants.size(); ++i) {
       manifest["variants"][i]["jaw"] = jaw_section(input.variants[i].performance, block);
+      manifest["variants"][i]["upper_teeth"] = upper_teeth_section(input.variants[i].performance);
+    }
   }
   if (!face) return manifest;
   manifest["skin"] = skin_section(input, block);

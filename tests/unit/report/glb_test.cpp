@@ -187,6 +187,7 @@ TEST(Glb, TeethAreNodesOfWhichTheLowerMoveWithTheJaw) {
   EXPECT_EQ(model.nodes[0].name, "face");
   EXPECT_EQ(model.nodes[1].name, "upper_teeth");
   EXPECT_EQ(model.nodes[2].name, "lower_teeth");
+  EXPECT_TRUE(model.nodes[1].translation.empty()) << "no surgery";
   const auto& lower = model.meshes[std::size_t(model.nodes[2].mesh)];
   ASSERT_EQ(lower.primitives.size(), 3u) << "crowns, gum and tongue";
   ASSERT_EQ(model.meshes[std::size_t(model.nodes[1].mesh)].primitives.size(), 2u);
@@ -302,6 +303,25 @@ TEST(Glb, PocketsBehindOpeningsHangOnTheMovingSkin) {
   }
   EXPECT_GT(moved_m, 1e-3);
   EXPECT_GT(by_jaw_m, 1e-3);
+}
+
+TEST(Glb, UpperTeethLieWhereSurgeryPutThem) {
+  auto face = made_up_face(Surface::plain);
+  const auto teeth = testing::made_up_teeth();
+  Eigen::Isometry3d& moved = face.performance.upper_teeth_now_from_rest;
+  moved.linear() = Eigen::AngleAxisd(0.1, Vec3::UnitX()).toRotationMatrix();
+  moved.translation() = Vec3(0.001, 0.002, 0.005);
+  const auto file = scratch("moved_teeth.glb");
+  write_glb(file, face.performance, face.scan, {.teeth = &teeth});
+  const auto model = read_back(file);
+  const tinygltf::Node& upper = model.nodes.at(1);
+  ASSERT_EQ(upper.name, "upper_teeth");
+  ASSERT_EQ(upper.rotation.size(), 4u);
+  ASSERT_EQ(upper.translation.size(), 3u);
+  const Eigen::Quaterniond turn(upper.rotation[3], upper.rotation[0], upper.rotation[1],
+                                upper.rotation[2]);
+  EXPECT_LT((turn.toRotationMatrix() - moved.linear()).norm(), 1e-6);
+  EXPECT_LT((Vec3(upper.translation.data()) - moved.translation()).norm(), 1e-9);
 }
 
 TEST(Glb, WithoutTeethThePocketHangsOnTheSkinAlone) {

@@ -226,6 +226,23 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(manifest().at("muscles").at("few_points"), false);
 }
 
+TEST(HtmlReport, HoldsTheUpperTeethWhereSurgeryPutThem) {
+  const auto face = made_up_face(Surface::plain);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const auto teeth = testing::made_up_teeth();
+  auto variant = made_up_variant(face, 0);
+  variant.face.performance.upper_teeth_now_from_rest.translation() = Vec3(0.001, -0.002, 0.005);
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  input.tissue = testing::made_up_tissue(face);
+  input.variants.push_back(reported(face, variant));
+  input.teeth = &teeth;
+  BinaryBlock block;
+  const json manifest = replay_manifest(input, block, false);
+  EXPECT_TRUE(manifest.at("motion").at("upper_teeth").is_null());
+  EXPECT_EQ(manifest.at("variants").at(0).at("upper_teeth"),
+            json({0, 0, 0, 1, 0.001, -0.002, 0.005}));
+}
+
 TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
   const auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);

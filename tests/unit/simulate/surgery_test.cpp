@@ -156,6 +156,20 @@ TEST_F(Surgery, MovesAddUpAndTheChinGoesWithTheMandible) {
   EXPECT_TRUE(cuts.upper_teeth().isApprox(Eigen::Isometry3d::Identity()));
 }
 
+TEST_F(Surgery, AMaxillaEndsInFrontOfThePterygoidPlates) {
+  const Osteotomies cuts({move_of(BonePart::maxilla, {0, 0, 0.005})}, face_.landmarks);
+  const Vec3 nose = frame_.local(face_.landmarks.at(ibug(33)));
+  const Vec3 condyles = frame_.local(JawHinge(face_.landmarks, nullptr).centre);
+  const auto moved = [&](double share) {
+    const Vec3 at(0.03, nose.y(), nose.z() + share * (condyles.z() - nose.z()));
+    return !cuts.motion(Bone::skull, frame_.world(at)).isApprox(Eigen::Isometry3d::Identity());
+  };
+  EXPECT_TRUE(moved(0));
+  EXPECT_TRUE(moved(0.45));
+  EXPECT_FALSE(moved(0.55));
+  EXPECT_FALSE(moved(1));
+}
+
 TEST_F(Surgery, TurnsHaveTheSignsThatTheyAreDescribedWith) {
   const auto turned = [&](std::vector<double> degrees, const Vec3& offset) {
     const Osteotomies cuts({move_of(BonePart::mandible, {0, 0, 0}, BoneCut::whole, degrees)},

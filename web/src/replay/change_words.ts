@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a variant changes, in words: {"tissue.young_kpa": 1000} is "stiffness 1,000 instead of 192.4 kPa".
 import { landmarkName, nameAndUnit, number, upper, words } from '../page/format';
+import { boneWords } from './surgery';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -64,6 +65,7 @@ export function changeWords(changes: Json, options: unknown, latinOf: LatinOf): 
   return Object.entries(changes).flatMap(([path, value]) => {
     const parts = path.split('.');
     const last = parts.pop()!;
+    if (path === 'surgery.bone' && Array.isArray(value)) return value.filter(isObject).map((row) => upper(boneWords(row)));
     if (Array.isArray(value) && value.some(isObject)) return value.filter(isObject).map(placeWords);
     if (path === 'muscles.gain' && isObject(value)) return Object.entries(value).map((gain) => gainWords(gain, latinOf));
     const { name, unit } = keyWords(last);

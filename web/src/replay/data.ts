@@ -41,6 +41,8 @@ export interface Face {
   muscles: { left: number[]; right: number[] }[];
   /** Frames x 7: the jaw's quaternion x y z w and its translation since rest; null without teeth. */
   jaw: Float32Array | null;
+  /** The pose that surgery gave the upper teeth, quaternion x y z w and translation; null where it moved none. */
+  upperTeeth: number[] | null;
 }
 
 export interface MuscleGroup {
@@ -178,6 +180,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     tissue: tissueOf(manifest.tissue, block),
     muscles: manifest.muscles?.groups ?? [],
     jaw: manifest.motion.jaw ? block.float32(manifest.motion.jaw) : null,
+    upperTeeth: manifest.motion.upper_teeth ?? null,
   };
   const variants = (manifest.variants ?? []).map((variant) => ({
     name: variant.name,
@@ -195,6 +198,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     tissue: tissueOf(variant.tissue, block),
     muscles: variant.muscles ?? [],
     jaw: variant.jaw ? block.float32(variant.jaw) : null,
+    upperTeeth: variant.upper_teeth ?? null,
   }));
   return [itself, ...variants];
 }

@@ -69,6 +69,8 @@ export interface VariantData {
   muscles?: { left: number[]; right: number[] }[];
   /** As motion.jaw. */
   jaw?: Stretch;
+  /** As motion.upper_teeth. */
+  upper_teeth?: number[] | null;
 }
 
 export interface Manifest {
@@ -101,6 +103,8 @@ export interface Manifest {
     max_displacement_mm: number;
     /** Where there are teeth: frames x 7, the jaw's quaternion x y z w and translation since rest. */
     jaw?: Stretch;
+    /** The pose that surgery gave the upper teeth: quaternion x y z w and translation. */
+    upper_teeth?: number[] | null;
   };
   /** Positions: samples x names x 3; NaN where a point has none. */
   landmarks: { names: string[]; time_s: number[]; positions: Stretch };

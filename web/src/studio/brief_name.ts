@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A short name of a face from its changes: {"muscles.gain": {"side_R": 0.4}} is "right side 40 %". Names given by the
 // user are kept. No DOM here.
+import { boneWords } from '../replay/surgery';
 import { isRecord, type MuscleInfo, type Values } from './messages';
 import { words } from './words';
 
@@ -50,7 +51,7 @@ export interface NamedChange {
   gain?: string;
   /** The same in plain words. */
   of?: string;
-  /** Of tissue.region: its place in the list. */
+  /** Of tissue.region and surgery.bone: its place in the list. */
   row?: number;
 }
 
@@ -61,6 +62,7 @@ function changesOfKey(key: string, value: unknown, base: unknown, muscles: Muscl
       .filter(([name, gain]) => gain !== (isRecord(base) ? (base[name] ?? 1) : 1))
       .map(([gain, share]) => ({ key, gain, of: gainPhrase(gain, muscles), text: `${gainName(gain, muscles)} ${percent(share)}` }));
   if (key === 'tissue.region' && Array.isArray(value)) return value.filter(isRecord).map((one, row) => ({ key, row, text: regionName(one) }));
+  if (key === 'surgery.bone' && Array.isArray(value)) return value.filter(isRecord).map((one, row) => ({ key, row, text: boneWords(one) }));
   if (key === 'motion.gain') return [{ key, text: `${lower(words.keyNames[key])} ${percent(value)}` }];
   if (typeof value === 'object') return [{ key, text: key.replace(/^.*\./, '').replaceAll('_', ' ') }];
   const unit = words.nameUnits[key] ?? '';

@@ -14,6 +14,8 @@ import { wireKeys, type Key } from '../replay/keys';
 import type { Manifest } from '../replay/manifest';
 import { transportKeys, wireTransport } from '../replay/transport';
 import { Answer } from './answer';
+import { bonesOf } from './bone_moves';
+import { BonesPanel } from './bones_panel';
 import { Certainty } from './certainty';
 import { Connection, takeToken, type LineState } from './connection';
 import { Drawer } from './drawer';
@@ -47,12 +49,13 @@ class Studio {
   private readonly muscles = new MusclesPanel(this.state, this.edits, (names) => this.stage?.face?.lightMuscles(names));
   private readonly tissue = new TissuePanel(this.state, this.edits);
   private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
+  private readonly bones = new BonesPanel(this.state, this.edits, () => this.stage?.face ?? null);
   private readonly scene = new ScenePanel(this.state, this.edits);
   private readonly answer = new Answer(this.state, at('answer-body'), () => this.panels.show('figures'));
   private readonly figures = new FiguresPanel(this.state, at('figures-body'), this.answer);
   private readonly certainty = new Certainty(this.state, this.connection, at('certainty'), (text) => this.problem(text));
   private readonly drawer = new Drawer();
-  private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain));
+  private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain), () => this.panels.show('bones'));
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'), () => this.drawer.openFiles());
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
@@ -72,12 +75,13 @@ class Studio {
       { key: 'muscles', title: words.muscles, element: this.muscles.element },
       { key: 'tissue', title: words.tissue, element: this.tissue.element },
       { key: 'paint', title: words.paint, element: this.paint.element, seen: (now) => this.paint.seen(now) },
+      { key: 'bones', title: words.bones, element: this.bones.element, seen: (now) => this.bones.seen(now) },
       { key: 'figures', title: words.figures, element: at('figures-holder') },
       { key: 'scene', title: words.scene, element: this.scene.element },
     ]);
     new Tabs(this.state, this.connection, this.edits);
     new Question(this.state, this.edits, this.whatIf, at('question-body'), (key) => this.panels.show(key));
-    this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));
+    this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.bones, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));
     this.wireBar();
     this.wireServer();
     this.wireWork();
@@ -114,7 +118,7 @@ class Studio {
       at('unsaved').hidden = saved;
       this.compareTexts();
     });
-    connection.on('face', ({ replay, muscles, landmarks, activations, block }) => {
+    connection.on('face', ({ replay, muscles, landmarks, bones, activations, block }) => {
       const manifest = replay as Manifest & { palette?: Palette };
       if (manifest.palette) defineColours(manifest.palette);
       this.withOptions(manifest.summary);
@@ -122,6 +126,7 @@ class Studio {
       this.muscles.curves.take(activations as Activations | null, block);
       // Messages on the previous face do not apply to this one.
       if (document.documentElement.hasAttribute('data-opening')) this.messages.clear();
+      this.bones.take(bonesOf(bones, block));
       state.source.setFace(replayOf(manifest, block));
       this.showRemarks(manifest.summary);
       this.landmarks.build(landmarks as LandmarkInfo[]);
@@ -213,6 +218,7 @@ class Studio {
     shown.setCount(replay.faces.length);
     this.stage = new Stage(replay, shown);
     this.paint.attach(this.stage);
+    this.bones.attach();
     this.muscles.build();
     this.figures.build();
     this.rewireKeys();

@@ -299,6 +299,12 @@ export interface FaceEvent {
    * they do not drive
    */
   activations: unknown;
+  /**
+   * axes of the face (to the left, up, forward: unit vectors in the scan's frame), segments (part, cut,
+   * turns_about, plane_at, plane_normal, half_width_m, ends_at; metres), skull and mandible (points,
+   * triangles: arrays; null where not known)
+   */
+  bones: unknown;
   /** float32, one per vertex of the skin: thickness of the soft tissue without mesh.thickness_region, mm */
   thickness: Stretch;
 }

@@ -14,6 +14,7 @@ import { words } from './words';
 
 const gainKey = 'muscles.gain';
 const regionKey = 'tissue.region';
+const boneKey = 'surgery.bone';
 const percent = linear(0, 200);
 
 export class Question {
@@ -24,7 +25,7 @@ export class Question {
   /** `showPanel`: opens the panel that sets a key. */
   constructor(
     private readonly state: StudioState, private readonly edits: Edits, private readonly whatIf: WhatIf, private readonly into: HTMLElement,
-    private readonly showPanel: (key: 'tissue' | 'paint' | 'muscles') => void,
+    private readonly showPanel: (key: 'tissue' | 'paint' | 'muscles' | 'bones') => void,
   ) {
     state.sceneChanged.add(() => this.update());
     state.shown.onChange(() => this.update());
@@ -104,8 +105,9 @@ export class Question {
 
   private other(change: NamedChange): HTMLElement {
     const row = element('div', '', 'change');
-    const painted = change.row !== undefined && isRecord(this.regions[change.row]) && 'painted' in this.regions[change.row];
-    const panel = painted ? 'paint' : change.key === 'motion.gain' ? 'muscles' : 'tissue';
+    const region = change.key === regionKey && change.row !== undefined ? this.rows(regionKey)[change.row] : undefined;
+    const painted = region !== undefined && 'painted' in region;
+    const panel = painted ? 'paint' : change.key === boneKey ? 'bones' : change.key === 'motion.gain' ? 'muscles' : 'tissue';
     const out = button('×', 'change-out', () => this.leave(change));
     out.setAttribute('aria-label', words.questionLeave(change.text));
     row.append(button(change.text, 'change-chip', () => this.showPanel(panel)), out);
@@ -124,8 +126,8 @@ export class Question {
     return isRecord(value) ? (value as Record<string, number>) : {};
   }
 
-  private get regions(): Record<string, unknown>[] {
-    const value = this.state.valuesOf(this.state.edited)[regionKey];
+  private rows(key: string): Record<string, unknown>[] {
+    const value = this.state.valuesOf(this.state.edited)[key];
     return Array.isArray(value) ? value.filter(isRecord) : [];
   }
 
@@ -135,7 +137,7 @@ export class Question {
       const { [gain]: _left, ...kept } = this.gains;
       const before = this.state.gainsOf(0)[gain];
       void this.edits.commit({ [gainKey]: before === undefined ? kept : { ...kept, [gain]: before } });
-    } else if (row !== undefined) void this.edits.commit({ [key]: this.regions.filter((_, i) => i !== row) });
+    } else if (row !== undefined) void this.edits.commit({ [key]: this.rows(key).filter((_, i) => i !== row) });
     else void this.edits.commit({ [key]: null });
   }
 }

@@ -4,6 +4,7 @@
 import { at } from '../page/dom';
 import { upper } from '../page/format';
 import { menuOf, type Menu } from '../page/menu';
+import { boneKey, boneParts, moveOf } from './bone_moves';
 import { briefName } from './brief_name';
 import { fillChooser, usualPercent, type Choice } from './chooser';
 import type { Edits } from './edits';
@@ -13,17 +14,20 @@ import { tryChange } from './try_change';
 import { words } from './words';
 
 const gainKey = 'muscles.gain';
+const usualMoveMm = 6;
 type Take = (gain: string, percent: number) => void;
 
 export class WhatIf {
   presets: Preset[] = [];
   readonly menu: Menu;
 
-  /** `strengthChanged` is called with the name of a muscle, branch or side after a variant with another strength of it was added. */
-  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly strengthChanged: (gain: string) => void) {
+  /** `showBones` opens the panel of bones. `strengthChanged` is called with the name of a muscle, branch or side after a variant with another strength of it was added. */
+  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly strengthChanged: (gain: string) => void,
+    private readonly showBones: () => void,
+  ) {
     this.menu = menuOf(at('what-if'), words.whatIf, (sheet, close) => {
       const [sides, ...muscles] = this.strengths((gain, percent) => tryChange(() => this.addWeaker(gain, percent)));
-      fillChooser(sheet, [...sides, ...this.presetChoices(), ...muscles.flat(), this.copy()], usualPercent, close);
+      fillChooser(sheet, [...sides, ...this.presetChoices(), ...this.boneChoices(), ...muscles.flat(), this.copy()], usualPercent, close);
     });
   }
 
@@ -83,6 +87,23 @@ export class WhatIf {
         take: () => tryChange(async () => this.focus(await this.edits.addFace(called, 0, name))),
       };
     });
+  }
+
+  private boneChoices(): Choice[] {
+    return boneParts.map((part) => {
+      const changes = { [boneKey]: [{ ...moveOf([], part), move_mm: [0, 0, usualMoveMm] }] };
+      return {
+        group: words.boneGroup, value: `bone ${part}`, text: words.boneChoice(words.boneParts[part], usualMoveMm), detail: '',
+        take: () => tryChange(() => this.addMoved(changes)),
+      };
+    });
+  }
+
+  private async addMoved(changes: Record<string, unknown>): Promise<void> {
+    const face = await this.edits.addFace(briefName(changes, this.state.valuesOf(0), this.state.muscles), 0);
+    this.focus(face);
+    this.showBones();
+    await this.edits.change(face, changes);
   }
 
   private copy(): Choice {

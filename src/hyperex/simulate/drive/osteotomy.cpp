@@ -29,87 +29,92 @@ Eigen::Isometry3d motion_of(const BoneMove& move, const face::FaceFrame& axes, c
   return out;
 }
 
+/// The segment of one move.
+BoneSegment segment_of(const BoneMove& move, const io::Landmarks& landmarks,
+                       const face::FaceFrame& axes, const Vec3& condyles) {
+  const auto at = [&](int k) -> Vec3 { return landmarks.at(ibug(k)); };
+  BoneSegment out{move.part, move.cut == BoneCut::standard ? usual_cut(move.part) : move.cut,
+                  condyles};
+  switch (out.cut) {
+    case BoneCut::le_fort_1:
+      out.turns_about = at(33);
+      out.plane_at = at(33) + (kLeFortAboveNose_m + move.cut_shift_m) * axes.y;
+      out.plane_normal = -axes.y;
+      out.ends_at = 0.5 * (condyles + at(33));
+      break;
+    case BoneCut::bsso:
+      out.turns_about = at(66);
+      out.plane_at = 0.5 * (condyles + at(8)) + move.cut_shift_m * axes.z;
+      out.plane_normal = axes.z;
+      break;
+    case BoneCut::genioplasty:
+      out.turns_about = at(8);
+      out.plane_at = at(8) + kChinShare * (at(57) - at(8)) + move.cut_shift_m * axes.y;
+      out.plane_normal = -axes.y;
+      out.half_width_m = kHalfChin_m;
+      break;
+    case BoneCut::standard:
+    case BoneCut::whole:
+      break;
+  }
+  return out;
+}
+
 }  // namespace
+
+std::vector<BoneSegment> usual_segments(const io::Landmarks& landmarks,
+                                        const anatomy::Bones* bones) {
+  const face::FaceFrame axes = face::face_frame(landmarks);
+  const Vec3 condyles = JawHinge(landmarks, bones).centre;
+  std::vector<BoneSegment> out;
+  for (const auto& [word, part] : words_of(BonePart{}))
+    out.push_back(segment_of({.part = part}, landmarks, axes, condyles));
+  return out;
+}
 
 Osteotomies::Osteotomies(const std::vector<BoneMove>& moves, const io::Landmarks& landmarks,
                          const anatomy::Bones* bones)
     : frame_(face::face_frame(landmarks)) {
   const Vec3 condyles = JawHinge(landmarks, bones).centre;
-  const auto local = [&](int k) { return frame_.local(landmarks.at(ibug(k))); };
   for (const BoneMove& move : moves) {
-    Move out{whole_skull, 0, {}};
-    Vec3 centre = condyles;
-    switch (move.part) {
-      case BonePart::skull:
-        break;
-      case BonePart::maxilla:
-        out.segment = upper;
-        out.plane_m = local(33).y() + kLeFortAboveNose_m + move.cut_shift_m;
-        centre = landmarks.at(ibug(33));
-        break;
-      case BonePart::mandible:
-        if (move.cut == BoneCut::whole) {
-          out.segment = whole_mandible;
-          break;
-        }
-        out.segment = front_of_mandible;
-        out.plane_m = 0.5 * (frame_.local(condyles).z() + local(8).z()) + move.cut_shift_m;
-        centre = landmarks.at(ibug(66));
-        break;
-      case BonePart::chin:
-        out.segment = chin_alone;
-        out.plane_m = local(8).y() + kChinShare * (local(57).y() - local(8).y()) + move.cut_shift_m;
-        centre = landmarks.at(ibug(8));
-        break;
-    }
-    out.motion = motion_of(move, frame_, centre);
-    moves_.push_back(out);
+    const BoneSegment segment = segment_of(move, landmarks, frame_, condyles);
+    moves_.push_back({segment, motion_of(move, frame_, segment.turns_about)});
   }
 }
 
-bool Osteotomies::holds(const Move& move, Bone bone, const Vec3& local) {
-  switch (move.segment) {
-    case whole_skull:
-      return bone == Bone::skull;
-    case upper:
-      return bone == Bone::skull && local.y() < move.plane_m;
-    case whole_mandible:
-      return bone == Bone::mandible;
-    case front_of_mandible:
-      return bone == Bone::mandible && local.z() > move.plane_m;
-    case chin_alone:
-      return bone == Bone::mandible && local.y() < move.plane_m &&
-             std::abs(local.x()) < kHalfChin_m;
-  }
-  return false;
+bool Osteotomies::holds(const BoneSegment& segment, Bone bone, const Vec3& at) const {
+  const bool of_skull = segment.part == BonePart::skull || segment.part == BonePart::maxilla;
+  if (bone != (of_skull ? Bone::skull : Bone::mandible)) return false;
+  if (segment.plane_normal.dot(at - segment.plane_at) <= 0 && !segment.plane_normal.isZero(0))
+    return false;
+  if (segment.ends_at && frame_.z.dot(at - *segment.ends_at) <= 0) return false;
+  return segment.half_width_m == 0 || std::abs(frame_.local(at).x()) < segment.half_width_m;
 }
 
 template <class Holds>
 Eigen::Isometry3d Osteotomies::product(const Holds& holds) const {
   Eigen::Isometry3d out = Eigen::Isometry3d::Identity();
   for (const Move& move : moves_)
-    if (holds(move)) out = move.motion * out;
+    if (holds(move.segment)) out = move.motion * out;
   return out;
 }
 
 Eigen::Isometry3d Osteotomies::motion(Bone bone, const Vec3& at) const {
-  const Vec3 local = frame_.local(at);
-  return product([&](const Move& move) { return holds(move, bone, local); });
+  return product([&](const BoneSegment& segment) { return holds(segment, bone, at); });
 }
 
 Eigen::Isometry3d Osteotomies::cranium() const {
-  return product([](const Move& move) { return move.segment == whole_skull; });
+  return product([](const BoneSegment& segment) { return segment.part == BonePart::skull; });
 }
 
 Eigen::Isometry3d Osteotomies::upper_teeth() const {
-  return product(
-      [](const Move& move) { return move.segment == whole_skull || move.segment == upper; });
+  return product([](const BoneSegment& segment) {
+    return segment.part == BonePart::skull || segment.part == BonePart::maxilla;
+  });
 }
 
 Eigen::Isometry3d Osteotomies::lower_teeth() const {
-  return product([](const Move& move) {
-    return move.segment == whole_mandible || move.segment == front_of_mandible;
-  });
+  return product([](const BoneSegment& segment) { return segment.part == BonePart::mandible; });
 }
 
 BonesAbout::BonesAbout(const Osteotomies& cuts, const std::vector<Bone>& bones,

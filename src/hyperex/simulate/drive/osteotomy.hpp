@@ -2,6 +2,7 @@
 #pragma once
 #include <Eigen/Geometry>
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "hyperex/face/face_frame.hpp"
@@ -11,9 +12,26 @@
 
 namespace hyperex::simulate {
 
+/// Where a segment of bone is cut, and about what it turns; in the frame of the landmarks, m.
+struct BoneSegment {
+  BonePart part;
+  BoneCut cut;
+  Vec3 turns_about;
+  /// Of the plane of the cut: a place on it, and its normal towards the segment. Zero: no cut.
+  Vec3 plane_at = Vec3::Zero(), plane_normal = Vec3::Zero();
+  double half_width_m = 0;           ///< greatest distance from the middle; 0: unlimited
+  std::optional<Vec3> ends_at = {};  ///< the segment lies in front of this place
+};
+
+/// Of each part with its usual cut. Planes and centres as Osteotomies has them. `bones`: null where
+/// none are known.
+std::vector<BoneSegment> usual_segments(const io::Landmarks& landmarks,
+                                        const anatomy::Bones* bones);
+
 /// How segments of bone move, by the planes of the standard osteotomies. In the frame of the face:
 ///  * le_fort_1: horizontal, 6 mm above the base of the nose (ibug68_33), as the cut runs through
-///    the rim of the piriform aperture below the inferior turbinate; the maxilla lies below it;
+///    the rim of the piriform aperture below the inferior turbinate; the maxilla lies below it, in
+///    front of the pterygoid plates, half-way from the condyles to the base of the nose;
 ///  * bsso (bilateral sagittal split): frontal, half-way between the condyles and the chin
 ///    (ibug68_8), as its outer cut runs behind the second molar; the segment lies in front of it;
 ///  * genioplasty: horizontal, at 0.45 of the height from chin to lower lip (ibug68_57), as the cut
@@ -39,13 +57,11 @@ class Osteotomies {
   Eigen::Isometry3d lower_teeth() const;
 
  private:
-  enum Segment { whole_skull, upper, whole_mandible, front_of_mandible, chin_alone };
   struct Move {
-    Segment segment;
-    double plane_m;  ///< of the cut, along its axis in the face's frame
+    BoneSegment segment;
     Eigen::Isometry3d motion;
   };
-  static bool holds(const Move& move, Bone bone, const Vec3& local);
+  bool holds(const BoneSegment& segment, Bone bone, const Vec3& at) const;
   template <class Holds>
   Eigen::Isometry3d product(const Holds& holds) const;
 

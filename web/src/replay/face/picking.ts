@@ -68,11 +68,13 @@ export class Picking {
     return { x: box.left + x + ((at.x + 1) / 2) * width, y: box.top + ((1 - at.y) / 2) * box.height };
   }
 
-  /** A point in the scan's axes, in the window. */
+  /** A point in the scan's axes, in the part of the window with the last face shown. */
   inWindow(point: Vec3): PixelPlace {
+    const passes = this.passes();
+    const { x, width } = passes[passes.length - 1];
     const box = this.host.getBoundingClientRect();
     const at = this.upright.localToWorld(new Vector3(...point)).project(this.camera);
-    return { x: box.left + ((at.x + 1) / 2) * box.width, y: box.top + ((1 - at.y) / 2) * box.height };
+    return { x: box.left + x + ((at.x + 1) / 2) * width, y: box.top + ((1 - at.y) / 2) * box.height };
   }
 
   /** A vertex as it is now, in pixels of the stage; null outside its face's part. */

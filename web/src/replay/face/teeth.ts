@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Teeth, gums and tongue behind the lips: the upper row does not move, the others move with the jaw.
+// Teeth, gums and tongue behind the lips: the upper row moves by surgery alone, the others move with the jaw.
 import {
-  BufferAttribute, BufferGeometry, Color, Group, type Matrix4, Mesh, MeshStandardMaterial, Quaternion, SRGBColorSpace, Vector3,
+  BufferAttribute, BufferGeometry, Color, Group, type Matrix4, Mesh, MeshStandardMaterial, type Object3D, Quaternion, SRGBColorSpace, Vector3,
 } from 'three';
 import type { Face, Replay } from '../data';
 
@@ -22,19 +22,30 @@ function meshOf({ part, colour, points, triangles, light }: Replay['teeth'][numb
   return mesh;
 }
 
+const after = { turn: new Quaternion(), shift: new Vector3() };
+
+/** Gives an object the jaw's pose since rest. `frame`: may be fractional; interpolated as in the animated glTF. */
+export function placeAsJaw({ quaternion, position }: Object3D, { jaw }: Face, frame: number): void {
+  if (!jaw) return;
+  const first = Math.floor(frame);
+  const second = Math.min(first + 1, jaw.length / 7 - 1);
+  const { turn, shift } = after;
+  quaternion.fromArray(jaw, 7 * first).slerp(turn.fromArray(jaw, 7 * second), frame - first);
+  position.fromArray(jaw, 7 * first + 4).lerp(shift.fromArray(jaw, 7 * second + 4), frame - first);
+}
+
 export class Teeth {
   readonly object = new Group();
+  private readonly upper = new Group();
   private readonly lower = new Group();
-  private readonly after = { turn: new Quaternion(), shift: new Vector3() };
-
   private readonly colours = new Map<MeshStandardMaterial, Color>();
 
   constructor(replay: Replay) {
-    this.object.add(this.lower);
+    this.object.add(this.upper, this.lower);
     for (const row of replay.teeth) {
       const mesh = meshOf(row);
       this.colours.set(mesh.material, mesh.material.color.clone());
-      (row.jaw === 'lower' ? this.lower : this.object).add(mesh);
+      (row.jaw === 'lower' ? this.lower : this.upper).add(mesh);
     }
   }
 
@@ -43,17 +54,12 @@ export class Teeth {
     for (const [material, colour] of this.colours) material.color.copy(colour).multiplyScalar(light);
   }
 
-  /** `frame`: may be fractional; interpolated as in the animated glTF. Returns the jaw's pose since rest. */
+  /** `frame`: may be fractional. Returns the jaw's pose since rest. */
   moveTo(face: Face, frame: number): Matrix4 {
-    const { jaw } = face;
-    this.lower.updateMatrix();
-    if (!jaw) return this.lower.matrix;
-    const first = Math.floor(frame);
-    const second = Math.min(first + 1, jaw.length / 7 - 1);
-    const { quaternion, position } = this.lower;
-    const { turn, shift } = this.after;
-    quaternion.fromArray(jaw, 7 * first).slerp(turn.fromArray(jaw, 7 * second), frame - first);
-    position.fromArray(jaw, 7 * first + 4).lerp(shift.fromArray(jaw, 7 * second + 4), frame - first);
+    const { upperTeeth } = face;
+    this.upper.quaternion.fromArray(upperTeeth ?? [0, 0, 0, 1]);
+    this.upper.position.fromArray(upperTeeth ?? [0, 0, 0], upperTeeth ? 4 : 0);
+    placeAsJaw(this.lower, face, frame);
     this.lower.updateMatrix();
     return this.lower.matrix;
   }

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The face in 3D, or two of them: beside each other, or in one place and divided by a vertical line. One camera for
 // both. Draws only when something changed, and deforms only what is drawn.
-import { Box3, Group, NoToneMapping, Scene, SRGBColorSpace, Texture, WebGLRenderer } from 'three';
+import { Box3, Group, NoToneMapping, type Object3D, Scene, SRGBColorSpace, Texture, WebGLRenderer } from 'three';
 import type { Painting } from './colouring';
 import type { Replay } from '../data';
 import { SceneMotion } from './deform';
 import { FaceBody, FaceMaterials } from './face_body';
 import { uprightFromScan } from './face_frame';
-import type { Marks } from './marks';
 import type { Overlay, OverlayName } from './overlays';
 import { Picking, type Pass } from './picking';
 import { PicturePace } from './picture_pace';
@@ -16,6 +15,12 @@ import { sideMarks, type SideMark } from './side_marks';
 import { StageLights } from './stage_lights';
 import { ViewCamera } from './view_camera';
 import { Listeners, Undoing, type Undo } from '../../page/listeners';
+
+/** What may be shown over a face. */
+export interface Marks {
+  object: Object3D;
+  dispose(): void;
+}
 
 export class FaceViewer {
   private readonly renderer: WebGLRenderer;
@@ -127,7 +132,12 @@ export class FaceViewer {
     this.show();
   }
 
-  /** Shows points over the single face shown, until null. */
+  /** Whether these marks are shown. */
+  shows(marks: Marks): boolean {
+    return this.marks === marks;
+  }
+
+  /** Shows marks over the last face shown, in the scan's axes, until null. */
   showMarks(marks: Marks | null): void {
     this.marks?.dispose();
     this.marks = marks;
@@ -328,7 +338,7 @@ export class FaceViewer {
     }
     this.renderer.setScissorTest(false);
     this.renderer.clear();
-    for (const pass of passes) this.drawPass(pass);
+    passes.forEach((pass, i) => this.drawPass(pass, i === passes.length - 1));
     this.whole = true;
     this.drawn.notify();
   }
@@ -344,15 +354,16 @@ export class FaceViewer {
     pass.body.coarse = true;
     pass.body.moveTo(this.replay.faces[live.face], this.frame, live.displacement);
     pass.body.paint(painting, null);
-    this.drawPass(pass, true);
+    this.drawPass(pass, at === this.passes().length - 1, true);
     this.drawn.notify();
     return true;
   }
 
-  private drawPass({ body, x, width, from, to }: Pass, clear = false): void {
+  private drawPass({ body, x, width, from, to }: Pass, last: boolean, clear = false): void {
     if (to <= from) return;
     const height = this.host.clientHeight;
     for (const other of this.bodies) other.object.visible = other === body;
+    if (this.marks) this.marks.object.visible = last;
     this.renderer.setScissorTest(true);
     this.renderer.setViewport(x, 0, width, height);
     this.renderer.setScissor(from, 0, to - from, height);

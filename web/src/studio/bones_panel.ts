@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Surgery: segments of bone moved by numbers, by sliders or by their arrows over the face, and what that does to the
+// face at rest, beside published ratios.
+import { button, element } from '../page/dom';
+import { landmarkName, upper } from '../page/format';
+import { rememberFold } from '../page/remember';
+import type { Vec3 } from '../replay/data';
+import { frameAt } from '../replay/face/deform';
+import type { FaceViewer } from '../replay/face/viewer';
+import { directionWords, softTissueMoves } from '../replay/surgery';
+import { variantsOf } from '../replay/variants';
+import { BoneHandles } from './bone_handles';
+import { boneKey, boneParts, moveOf, movesOf, withMove, type BoneMove, type BonePart, type BonesKnown } from './bone_moves';
+import { axisColours, BoneView } from './bone_view';
+import type { Edits } from './edits';
+import type { Control, RemarkPanel } from './remark_places';
+import { linear, Slider } from './slider';
+import type { StudioState } from './studio_state';
+import { words } from './words';
+
+const [mostMm, mostDeg] = [15, 15];
+const tenth = (value: number): number => Math.round(10 * value) / 10;
+
+export class BonesPanel implements RemarkPanel {
+  readonly key = 'bones';
+  readonly sections = ['surgery'];
+  readonly element = element('div', '', 'panel bones-panel');
+  private part: BonePart = 'mandible';
+  private readonly parts = element('div', '', 'segments');
+  private readonly cut = element('select');
+  private readonly cutLabel = element('label', '', 'part');
+  private readonly moves: Slider[] = [];
+  private readonly turns: Slider[] = [];
+  private readonly shift: Slider;
+  private readonly note = element('p', '', 'why');
+  private readonly results = element('table', '', 'bone-results');
+  private readonly back = button(words.boneBack, 'quiet', () => this.commit({ ...this.move, move_mm: [0, 0, 0], turn_deg: [0, 0, 0] }));
+  private bones: BonesKnown | null = null;
+  private visible = false;
+  private shown: { view: BoneView; handles: BoneHandles; of: string } | null = null;
+
+  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly viewer: () => FaceViewer | null) {
+    this.parts.setAttribute('role', 'group');
+    this.parts.setAttribute('aria-label', words.bonePart);
+    for (const part of boneParts) {
+      const choose = button(words.boneParts[part], '', () => this.choose(part));
+      choose.dataset.part = part;
+      this.parts.append(choose);
+    }
+    this.cut.append(new Option(words.boneCuts.standard, 'standard'), new Option(words.boneCuts.whole, 'whole'));
+    this.cut.addEventListener('change', () => this.commit({ ...this.move, cut: this.cut.value }));
+    this.cutLabel.append(element('span', words.boneCut), this.cut);
+    for (const axis of [2, 1, 0]) this.moves[axis] = this.slider('move_mm', axis, words.boneMoves[axis], mostMm, 'mm', words.boneMoveHint);
+    for (const axis of [0, 1, 2]) this.turns[axis] = this.slider('turn_deg', axis, words.boneTurns[axis], mostDeg, '°', words.boneTurnHint);
+    this.shift = new Slider({
+      name: words.boneShift, unit: 'mm', hint: words.boneShiftHint, course: linear(-mostMm, mostMm), round: tenth, low: -50, high: 50,
+      live: (value) => this.live({ ...this.move, cut_shift_mm: value }),
+      done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? 0 }),
+    });
+    const more = element('details', '', 'muscle-group');
+    more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
+    rememberFold(more, 'bones.more');
+    this.element.append(
+      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.note);
+    state.sceneChanged.add(() => this.update());
+    state.shown.onChange(() => this.update());
+    state.source.onChange(() => this.fillResults());
+    state.playback.onChange(() => this.openJaw());
+  }
+
+  /** Of a new face. */
+  take(bones: BonesKnown): void {
+    this.bones = bones;
+    this.hide();
+    this.update();
+  }
+
+  /** After the stage was made again. */
+  attach(): void {
+    this.shown?.handles.dispose();
+    this.shown = null;
+    this.showBones();
+  }
+
+  seen(now: boolean): void {
+    this.visible = now;
+    this.showBones();
+  }
+
+  controlsOf(): Control[] {
+    return [];
+  }
+
+  private slider(key: 'move_mm' | 'turn_deg', axis: number, name: string, most: number, unit: string, hint: string): Slider {
+    const head = element('span', '', 'bone-axis');
+    const dot = element('i');
+    if (key === 'move_mm') dot.style.background = axisColours[axis];
+    head.append(dot, name);
+    const withValue = (value: number): BoneMove => {
+      const { move } = this;
+      const next: Vec3 = [...move[key]];
+      next[axis] = value;
+      return { ...move, [key]: next };
+    };
+    const slider = new Slider({
+      name, unit, hint, course: linear(-most, most), round: tenth, low: -90, high: 90, head,
+      live: (value) => this.live(withValue(value)),
+      done: (value) => this.commit(withValue(value ?? 0)),
+    });
+    slider.element.dataset.bone = `${key}.${axis}`;
+    return slider;
+  }
+
+  private get all(): BoneMove[] {
+    return movesOf(this.edits.value(boneKey));
+  }
+
+  private get move(): BoneMove {
+    const own = this.all.find(({ part }) => part === this.part);
+    return own ?? { ...moveOf([], this.part), ...this.cutOnly };
+  }
+
+  /** A cut that was chosen before anything moves. */
+  private get cutOnly(): Partial<BoneMove> {
+    return this.part === 'mandible' && this.cut.value === 'whole' ? { cut: 'whole' } : {};
+  }
+
+  private choose(part: BonePart): void {
+    this.part = part;
+    this.update();
+  }
+
+  private live(next: BoneMove): void {
+    this.shown?.view.set(next);
+    this.viewer()?.redraw();
+    this.edits.live({ [boneKey]: withMove(this.all, next) });
+  }
+
+  private commit(next: BoneMove): void {
+    void this.edits.commit({ [boneKey]: withMove(this.all, next) });
+  }
+
+  private update(): void {
+    const { state, part } = this;
+    if (!state.scene) return;
+    for (const choose of this.parts.querySelectorAll('button')) {
+      choose.setAttribute('aria-pressed', String(choose.dataset.part === part));
+      choose.classList.toggle('changed', this.all.some((move) => move.part === choose.dataset.part));
+    }
+    const own = this.move;
+    const base = moveOf(movesOf(state.valuesOf(0)[boneKey]), part);
+    for (const axis of [0, 1, 2]) {
+      this.moves[axis].set(own.move_mm[axis], base.move_mm[axis]);
+      this.turns[axis].set(own.turn_deg[axis], base.turn_deg[axis]);
+    }
+    this.shift.set(own.cut_shift_mm, base.cut_shift_mm);
+    this.cutLabel.hidden = part !== 'mandible';
+    if (this.all.some((move) => move.part === part)) this.cut.value = own.cut === 'whole' ? 'whole' : 'standard';
+    this.back.disabled = !this.all.some((move) => move.part === part);
+    this.note.textContent = this.bones && (this.bones.skull ?? this.bones.mandible) ? words.bonesOwn : words.bonesGuessed;
+    this.fillResults();
+    this.showBones();
+  }
+
+  /** The bones, the cut and the arrows, while this panel is seen. */
+  private showBones(): void {
+    const viewer = this.viewer();
+    if (!viewer || !this.bones || !this.visible) {
+      this.hide();
+      return;
+    }
+    const { move } = this;
+    const of = `${move.part} ${move.cut} ${move.cut_shift_mm}`;
+    if (this.shown?.of === of && viewer.shows(this.shown.view)) {
+      this.shown.view.set(move);
+      this.openJaw();
+      viewer.redraw();
+      return;
+    }
+    this.shown?.handles.dispose();
+    const view = new BoneView(this.bones, move);
+    viewer.showMarks(view);
+    const moved = (moveMm: Vec3, done: boolean) => {
+      const next = { ...this.move, move_mm: moveMm };
+      if (done) this.commit(next);
+      else {
+        moveMm.forEach((value, axis) => this.moves[axis].set(value, null));
+        this.live(next);
+      }
+    };
+    this.shown = { view, handles: new BoneHandles(viewer, view, () => this.move.move_mm, moved), of };
+    this.openJaw();
+  }
+
+  private openJaw(): void {
+    const { replay } = this.state.source;
+    if (!this.shown || !this.state.source.open) return;
+    const face = replay.faces[this.state.edited];
+    if (face) this.shown.view.openAs(face, frameAt(replay.timeS, this.state.playback.timeS));
+  }
+
+  private hide(): void {
+    if (!this.shown) return;
+    this.shown.handles.dispose();
+    const viewer = this.viewer();
+    if (viewer?.shows(this.shown.view)) viewer.showMarks(null);
+    this.shown = null;
+  }
+
+  /** What surgery did to the face at rest, once it was computed. */
+  private fillResults(): void {
+    const { state, results } = this;
+    results.replaceChildren();
+    if (!state.source.open) return;
+    const row = variantsOf(state.source.replay)?.table.find(({ name }) => name === state.nameOf(state.edited));
+    const moves = softTissueMoves(row);
+    results.hidden = moves.length === 0;
+    if (moves.length === 0) return;
+    results.createCaption().textContent = words.boneResults;
+    const head = results.createTHead().insertRow();
+    for (const text of [words.boneLandmark, words.boneAtRest, words.boneRatio]) {
+      const cell = element('th', text);
+      cell.scope = 'col';
+      head.append(cell);
+    }
+    const body = results.createTBody();
+    for (const { landmark, at_rest_mm, soft_per_bone, published } of moves) {
+      const line = body.insertRow();
+      const name = element('th', upper(landmarkName(landmark)));
+      name.scope = 'row';
+      const ratio = element('td', soft_per_bone === undefined ? '' : soft_per_bone.toFixed(2));
+      if (published) {
+        ratio.append(' ', element('small', words.bonePublished(published.low.toFixed(2), published.high.toFixed(2))));
+        ratio.title = published.source;
+      }
+      line.append(name, element('td', directionWords(at_rest_mm) || '0.0'), ratio);
+    }
+  }
+}
