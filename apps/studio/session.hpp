@@ -14,6 +14,7 @@
 
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/ct/ct_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/uncertainty/face_budget.hpp"
@@ -92,6 +93,7 @@ class Session {
   nlohmann::json live_take(const nlohmann::json& fields);
   nlohmann::json free_name(const nlohmann::json& fields);
   nlohmann::json discard_autosave(const nlohmann::json& fields);
+  nlohmann::json ct_seeds(const nlohmann::json& fields);
   nlohmann::json compare_visits(const nlohmann::json& fields);
   nlohmann::json save(const nlohmann::json& fields);
 
@@ -112,6 +114,16 @@ class Session {
   /// Whether to offer the work of a crashed session.
   bool offers_rescued() const;
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }
+
+  // A CT (session_ct.cpp).
+  /// Whether an upload is opened as a CT.
+  static bool is_ct(const std::filesystem::path& file);
+  /// A scene of the CT's skin on its own bones. Removes `file`, which names the patient.
+  std::string ct_scene(const std::filesystem::path& file, const std::filesystem::path& recording);
+  /// Writes what was found in a CT into a new folder and reports its notes.
+  std::filesystem::path write_bones(const ct::CtFace& face);
+  /// The pictures of the CT of the open face; none where it has no CT.
+  void send_ct_pictures();
 
   // Two recordings (session_visits.cpp).
   /// The name of the recording before the present one; empty where there is none.
@@ -172,6 +184,7 @@ class Session {
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        budget_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
+  std::unique_ptr<ct::SeriesVolume> ct_;  ///< that was opened last in this session
   std::optional<SurfaceTree> scan_;  ///< of the open face; built when a landmark is first moved
   io::Landmarks moved_;              ///< since the last landmarks_done()
   int landmark_files_ = 0, takes_ = 0;

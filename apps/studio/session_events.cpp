@@ -57,6 +57,7 @@ void Session::send_motion(Stopwatch& watch) {
     head["thickness"] = block.add("float32", thickness.data(), std::size_t(thickness.size()));
   }
   send_(binary_message(head, block), true, "");
+  if (!face_sent_) send_ct_pictures();
   face_sent_ = true;
 }
 

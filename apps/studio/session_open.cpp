@@ -23,7 +23,7 @@ json Session::open(const json& fields) {
     if (name.empty()) return fs::path();
     const fs::path file = uploads() / name;
     if (!fs::is_regular_file(file)) throw InputError(name + ": no such upload");
-    if (ending_of(file) != ".zip") return file;
+    if (ending_of(file) != ".zip" || name == what) return file;
     report_progress("unpacking the recording");
     return unpacked_recording(file, uploads());
   };
@@ -56,6 +56,8 @@ json Session::open(const json& fields) {
   } else if (const fs::path file = uploaded(what); file.extension() == ".toml") {
     static_cast<void>(uploaded(recording));  // unpacks it; the scene names it by itself
     open_text(with_uploads(read_file(file), uploads()), file);
+  } else if (is_ct(file)) {
+    open_text(ct_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   }

@@ -2,11 +2,17 @@
 // Surgery in the studio: bones moved by figures, from the list of questions and by their arrows; on a made-up face with
 // a made-up server, and on the embedded face with the program's own.
 import assert from 'node:assert/strict';
+import { existsSync, readdirSync } from 'node:fs';
+import { readFile } from 'node:fs/promises';
+import { dirname, join } from 'node:path';
 import { after, before, describe, test } from 'node:test';
+import { fileURLToPath } from 'node:url';
 import { launch } from './browser.mjs';
 import { openMadeUp } from './made_up_studio.mjs';
 import { askWhatIf, openStudio, program, startStudio } from './studio_server.mjs';
+import { zipOf } from './zip.mjs';
 
+const phantom = join(dirname(fileURLToPath(import.meta.url)), '..', '..', '..', 'shared', 'data', 'ct', 'phantom_head.zip');
 const boneKey = 'surgery.bone';
 
 describe('bones with a made-up face', { concurrency: false }, () => {
@@ -111,6 +117,57 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     await page.keyboard.press('ArrowLeft');
     await page.waitForFunction((n) => Number(document.documentElement.dataset.shapes ?? 0) > n, before);
     console.log(`a shape takes ${await page.evaluate(() => document.documentElement.dataset.shapeS)} s`);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('a zipped CT: skin, bones and their pictures; then skull and jaw are divided anew by two clicks', { skip: existsSync(phantom) ? false : 'no CT is there' }, async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    page.setDefaultTimeout(180_000);
+    const settled = () => page.waitForFunction(() => document.documentElement.dataset.current === 'true' && !document.documentElement.hasAttribute('data-opening'));
+    await settled();
+    await page.click('#open-files');
+    assert.equal(await page.locator('#ct-panel').isVisible(), false, 'the embedded face has no CT');
+
+    // No slices are in this one: one sentence, and the face stays.
+    await page.setInputFiles('#file-picker', { name: 'letters.zip', mimeType: 'application/zip', buffer: zipOf([['a.txt', Buffer.from('no slice')]]) });
+    await page.waitForFunction(() => /DICOM/.test(document.querySelector('#open-panel > .problem').textContent));
+    assert.match(await page.locator('#open-panel > .problem').textContent(), /^letters\.zip/);
+
+    const began = Date.now();
+    await page.setInputFiles('#file-picker', { name: 'Doe Jane 1970.zip', mimeType: 'application/zip', buffer: await readFile(phantom) });
+    await page.locator('.ct-pictures img').nth(2).waitFor();
+    await settled();
+    console.log(`a CT is open after ${((Date.now() - began) / 1e3).toFixed(0)} s`);
+    for (const picture of await page.locator('.ct-pictures img').all()) assert.ok(await picture.evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
+    const text = await page.locator('#scene-text').textContent();
+    assert.match(text, /\[anatomy\]\s+ct = /);
+    assert.doesNotMatch(text, /doe|jane|1970/i, 'the name of the file may name the patient');
+    const kept = readdirSync(studio.folder, { recursive: true }).join('\n');
+    assert.match(kept, /mandible\.ply/);
+    assert.doesNotMatch(kept, /doe|jane|1970/i);
+
+    await page.click('#open-files');
+    await askWhatIf(page, 'lower jaw 6 mm');
+    const row = page.locator('.bone-results tbody tr', { hasText: 'Chin' });
+    await row.waitFor();
+    const [, moved] = await row.locator('th, td').allInnerTexts();
+    assert.ok(Number(/([\d.]+) forward/.exec(moved)[1]) > 4.8, moved);
+    await page.locator('[data-mode=single]').click();
+    await page.getByRole('button', { name: 'Skull and jaw are divided wrongly' }).click();
+    const { x, y, width, height } = await page.locator('#face').boundingBox();
+    const status = page.locator('.bones-panel [role=status]');
+    await page.mouse.click(x + 0.5 * width, y + 0.28 * height);
+    await page.waitForFunction(() => /lower jaw/.test(document.querySelector('.bones-panel [role=status]').textContent));
+    await page.mouse.click(x + 0.5 * width, y + 0.72 * height);
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('ct-2'));
+    await settled();
+    assert.equal(await status.textContent(), '');
+    await page.click('#undo');
+    await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('ct-2'));
+    await settled();
     assert.deepEqual(complaints, []);
     await close();
   });

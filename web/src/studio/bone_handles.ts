@@ -24,6 +24,8 @@ interface Shaft {
 
 export class BoneHandles {
   private readonly undoing = new Undoing();
+  /** Another use of the pointer. */
+  paused = false;
   private held: { shaft: Shaft; x: number; y: number; from: Vec3 } | null = null;
 
   /** `moved`: called with the new move_mm while it is dragged, and once when it is released (`done`). */
@@ -43,7 +45,7 @@ export class BoneHandles {
     // Before the view's own listeners, so that picking an arrow does not turn the face.
     const first = { signal: this.undoing.signal, capture: true };
     canvas.addEventListener('pointerdown', (event) => {
-      const shaft = event.button === 0 ? this.nearest(event.clientX, event.clientY) : null;
+      const shaft = event.button === 0 && !this.paused ? this.nearest(event.clientX, event.clientY) : null;
       if (!shaft) return;
       event.stopImmediatePropagation();
       event.preventDefault();
@@ -53,7 +55,7 @@ export class BoneHandles {
     }, first);
     canvas.addEventListener('pointermove', (event) => {
       if (!this.held) {
-        if (event.buttons === 0) canvas.style.cursor = this.nearest(event.clientX, event.clientY) ? 'grab' : '';
+        if (event.buttons === 0 && !this.paused) canvas.style.cursor = this.nearest(event.clientX, event.clientY) ? 'grab' : '';
         return;
       }
       event.stopImmediatePropagation();

@@ -3,7 +3,7 @@
 // plane of the cut, and an arrow for each direction in which it can be dragged.
 import {
   BufferAttribute, BufferGeometry, Color, ConeGeometry, CylinderGeometry, DoubleSide, Group, Material, Matrix4, Mesh,
-  MeshBasicMaterial, MeshLambertMaterial, Object3D, PlaneGeometry, Quaternion, Vector3,
+  MeshBasicMaterial, MeshLambertMaterial, Object3D, PlaneGeometry, Quaternion, type Raycaster, Vector3,
 } from 'three';
 import type { Face, Vec3 } from '../replay/data';
 import { placeAsJaw } from '../replay/face/teeth';
@@ -72,6 +72,7 @@ export class BoneView {
   private readonly jaw = new Group();
   private readonly moving = new Group();
   private readonly arrows = new Group();
+  private readonly surfaces: Mesh[] = [];
 
   constructor(private readonly bones: BonesKnown, private move: BoneMove) {
     this.segment = segmentOf(bones, move);
@@ -119,6 +120,13 @@ export class BoneView {
     this.jaw.matrixWorldNeedsUpdate = true;
   }
 
+  /** Where a ray meets a bone, as it lies at rest before surgery; metres, in the scan's axes. */
+  placeOn(ray: Raycaster): Vec3 | null {
+    this.object.updateWorldMatrix(true, true);
+    const [hit] = ray.intersectObjects(this.surfaces, false);
+    return hit ? (hit.object.worldToLocal(hit.point.clone()).toArray() as Vec3) : null;
+  }
+
   dispose(): void {
     this.object.removeFromParent();
     this.object.traverse((part) => {
@@ -135,8 +143,14 @@ export class BoneView {
       const bone = bones[name];
       if (!bone) continue;
       const [kept, moved] = name === own ? this.divided(bone) : [Array.from(bone.triangles), []];
-      if (kept.length > 0) (name === 'mandible' ? this.jaw : this.object).add(meshOf(bone.points, kept, boneColour));
-      if (moved.length > 0) this.moving.add(meshOf(bone.points, moved, segmentColour));
+      const add = (into: Group, triangles: number[], colour: string) => {
+        if (triangles.length === 0) return;
+        const mesh = meshOf(bone.points, triangles, colour);
+        this.surfaces.push(mesh);
+        into.add(mesh);
+      };
+      add(name === 'mandible' ? this.jaw : this.object, kept, boneColour);
+      add(this.moving, moved, segmentColour);
     }
   }
 

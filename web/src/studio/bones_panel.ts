@@ -9,9 +9,11 @@ import { frameAt } from '../replay/face/deform';
 import type { FaceViewer } from '../replay/face/viewer';
 import { directionWords, softTissueMoves } from '../replay/surgery';
 import { variantsOf } from '../replay/variants';
+import { BoneDivision } from './bone_division';
 import { BoneHandles } from './bone_handles';
 import { boneKey, boneParts, moveOf, movesOf, withMove, type BoneMove, type BonePart, type BonesKnown } from './bone_moves';
 import { axisColours, BoneView } from './bone_view';
+import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import type { Control, RemarkPanel } from './remark_places';
 import { linear, Slider } from './slider';
@@ -35,11 +37,15 @@ export class BonesPanel implements RemarkPanel {
   private readonly note = element('p', '', 'why');
   private readonly results = element('table', '', 'bone-results');
   private readonly back = button(words.boneBack, 'quiet', () => this.commit({ ...this.move, move_mm: [0, 0, 0], turn_deg: [0, 0, 0] }));
+  private readonly divide = button(words.boneDivide, 'quiet', () => this.startDivision());
+  private readonly dividing = element('p', '', 'why');
+  private division: BoneDivision | null = null;
   private bones: BonesKnown | null = null;
   private visible = false;
   private shown: { view: BoneView; handles: BoneHandles; of: string } | null = null;
 
-  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly viewer: () => FaceViewer | null) {
+  constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly connection: Connection,
+    private readonly viewer: () => FaceViewer | null) {
     this.parts.setAttribute('role', 'group');
     this.parts.setAttribute('aria-label', words.bonePart);
     for (const part of boneParts) {
@@ -61,7 +67,10 @@ export class BonesPanel implements RemarkPanel {
     more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
     rememberFold(more, 'bones.more');
     this.element.append(
-      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.note);
+      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.note, this.divide, this.dividing);
+    this.divide.hidden = true;
+    this.dividing.setAttribute('role', 'status');
+    connection.on('ct', ({ divides }) => (this.divide.hidden = !divides));
     state.sceneChanged.add(() => this.update());
     state.shown.onChange(() => this.update());
     state.source.onChange(() => this.fillResults());
@@ -199,7 +208,38 @@ export class BonesPanel implements RemarkPanel {
     if (face) this.shown.view.openAs(face, frameAt(replay.timeS, this.state.playback.timeS));
   }
 
+  /** Two clicks on the bones, then the program divides them anew. */
+  private startDivision(): void {
+    const viewer = this.viewer();
+    if (!viewer || !this.shown) return;
+    this.endDivision(words.boneDivideSkull);
+    this.shown.handles.paused = true;
+    this.division = new BoneDivision(viewer, this.shown.view, (skull, mandible) => {
+      if (mandible) {
+        this.endDivision(words.boneDividing);
+        void this.sendSeeds(skull, mandible);
+      } else this.dividing.textContent = words.boneDivideJaw;
+    }, () => this.endDivision(''));
+  }
+
+  private async sendSeeds(skull: Vec3, mandible: Vec3): Promise<void> {
+    try {
+      await this.connection.request('ct_seeds', { skull, mandible });
+      this.dividing.textContent = '';
+    } catch (error) {
+      this.dividing.textContent = error instanceof Refused ? error.message : '';
+    }
+  }
+
+  private endDivision(text: string): void {
+    this.division?.dispose();
+    this.division = null;
+    if (this.shown) this.shown.handles.paused = false;
+    this.dividing.textContent = text;
+  }
+
   private hide(): void {
+    if (this.division) this.endDivision('');
     if (!this.shown) return;
     this.shown.handles.dispose();
     const viewer = this.viewer();

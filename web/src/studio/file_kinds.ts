@@ -2,10 +2,11 @@
 // The kind of a chosen or dropped file, by its extension and first bytes. Only clear mistakes are refused here; the
 // server checks the rest. No DOM here.
 
-export type FileKind = 'scan' | 'scene' | 'recording' | 'empty' | 'picture' | 'json' | 'torn video' | 'unknown';
+export type FileKind = 'scan' | 'ct' | 'scene' | 'recording' | 'empty' | 'picture' | 'json' | 'torn video' | 'unknown';
 
 const endings: [FileKind, RegExp][] = [
   ['scan', /\.(ply|obj|stl|glb|gltf)$/i],
+  ['ct', /\.(nii|nii\.gz|nrrd)$/i],
   ['scene', /\.toml$/i],
   ['picture', /\.(jpe?g|png|gif|bmp|tiff?|webp|heic|avif|svg)$/i],
   ['json', /\.json$/i],
@@ -21,11 +22,19 @@ const beginnings: [RegExp, at: number, text: string[]][] = [
   [/\.(mkv|webm)$/i, 0, ['\x1a\x45\xdf\xa3']],
 ];
 
-/** `file`: its name, its size, and its first bytes on demand. */
+/** A recording of pictures has a list of them; any other zip is taken for a CT's slices. The names of all files are at
+ *  the end of a zip. */
+async function isRecordingZip(file: Pick<File, 'size' | 'slice'>): Promise<boolean> {
+  const most = 4 << 20;
+  return new TextDecoder('latin1').decode(await file.slice(Math.max(0, file.size - most)).arrayBuffer()).includes('rgb.txt');
+}
+
+/** `file`: its name, its size, and some of its bytes on demand. */
 export async function kindOf(file: Pick<File, 'name' | 'size' | 'slice'>): Promise<FileKind> {
   const { name, size } = file;
   const kind = endings.find(([, ending]) => ending.test(name))?.[0] ?? 'unknown';
   if (size === 0) return 'empty';
+  if (isZip(name)) return (await isRecordingZip(file)) ? 'recording' : 'ct';
   const begins = beginnings.find(([ending]) => ending.test(name));
   if (!begins) return kind;
   const [, at, texts] = begins;

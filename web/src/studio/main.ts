@@ -18,6 +18,7 @@ import { bonesOf } from './bone_moves';
 import { BonesPanel } from './bones_panel';
 import { Certainty } from './certainty';
 import { Connection, takeToken, type LineState } from './connection';
+import { CtPanel } from './ct_panel';
 import { Drawer } from './drawer';
 import { Edits } from './edits';
 import { FiguresPanel } from './figures_panel';
@@ -49,7 +50,7 @@ class Studio {
   private readonly muscles = new MusclesPanel(this.state, this.edits, (names) => this.stage?.face?.lightMuscles(names));
   private readonly tissue = new TissuePanel(this.state, this.edits);
   private readonly paint = new PaintPanel(this.state, this.edits, this.connection);
-  private readonly bones = new BonesPanel(this.state, this.edits, () => this.stage?.face ?? null);
+  private readonly bones = new BonesPanel(this.state, this.edits, this.connection, () => this.stage?.face ?? null);
   private readonly scene = new ScenePanel(this.state, this.edits);
   private readonly answer = new Answer(this.state, at('answer-body'), () => this.panels.show('figures'));
   private readonly figures = new FiguresPanel(this.state, at('figures-body'), this.answer);
@@ -79,6 +80,7 @@ class Studio {
       { key: 'figures', title: words.figures, element: at('figures-holder') },
       { key: 'scene', title: words.scene, element: this.scene.element },
     ]);
+    new CtPanel(this.connection, at('ct-panel'));
     new Tabs(this.state, this.connection, this.edits);
     new Question(this.state, this.edits, this.whatIf, at('question-body'), (key) => this.panels.show(key));
     this.remarks = new RemarkPlaces([this.muscles, this.tissue, this.bones, this.scene], () => (this.state.edited === 0 ? '' : this.state.nameOf(this.state.edited)));

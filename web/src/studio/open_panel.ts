@@ -116,12 +116,12 @@ export class OpenPanel {
     for (const file of files) kinds.set(file, await kindOf(file));
     const of = (...wanted: string[]) => files.filter((file) => wanted.includes(kinds.get(file)!));
     const names = (some: File[]) => some.map(({ name }) => name).join(', ');
-    const [scan, scene] = [of('scan'), of('scene')];
+    const [scan, scene] = [of('scan', 'ct'), of('scene')];
     if (scene.length + scan.length > 1 && scene.length !== 1) return this.report(words.tooManyScans(names([...scene, ...scan])));
     // A scene may name files of any kind.
     for (const file of scene.length === 0 ? files : of('empty')) {
       const kind = kinds.get(file)!;
-      if (kind === 'scan' || kind === 'scene' || kind === 'recording') continue;
+      if (kind === 'scan' || kind === 'ct' || kind === 'scene' || kind === 'recording') continue;
       return this.report(words.fileProblems[kind](file.name, words.expectedFiles));
     }
     const recordings = of('recording');

@@ -210,6 +210,18 @@ export type DiscardAutosaveRequest = Record<string, never>;
 export type DiscardAutosaveAnswer = Record<string, never>;
 
 /**
+ * Divides skull and mandible of the CT that was opened in this session anew, by a point in either. A change
+ * that undo takes back; the events face and ct follow.
+ */
+export interface CtSeedsRequest {
+  /** [x, y, z], metres, in the scan's frame */
+  skull: unknown;
+  /** the same */
+  mandible: unknown;
+}
+export type CtSeedsAnswer = Record<string, never>;
+
+/**
  * Compares the present recording with the one before as two visits of one person (docs/visits.md). Writes a
  * page into the folder of the command line.
  */
@@ -307,6 +319,14 @@ export interface FaceEvent {
   bones: unknown;
   /** float32, one per vertex of the skin: thickness of the soft tissue without mesh.thickness_region, mm */
   thickness: Stretch;
+}
+
+/** Binary. After the event face: the pictures of its CT. */
+export interface CtEvent {
+  /** slices, bones_through_skin and thickness: arrays with a PNG each; absent where the face has no CT */
+  pictures: unknown;
+  /** whether ct_seeds may be asked */
+  divides: boolean;
 }
 
 /** Binary. A new motion of all faces: replaces the motion in the last event face or motion. */
@@ -435,6 +455,7 @@ export interface Requests {
   live_take: { fields: LiveTakeRequest; answer: LiveTakeAnswer };
   free_name: { fields: FreeNameRequest; answer: FreeNameAnswer };
   discard_autosave: { fields: DiscardAutosaveRequest; answer: DiscardAutosaveAnswer };
+  ct_seeds: { fields: CtSeedsRequest; answer: CtSeedsAnswer };
   compare_visits: { fields: CompareVisitsRequest; answer: CompareVisitsAnswer };
   save: { fields: SaveRequest; answer: SaveAnswer };
 }
@@ -445,6 +466,7 @@ export interface Events {
   log: LogEvent;
   scene: SceneEvent;
   face: FaceEvent;
+  ct: CtEvent;
   motion: MotionEvent;
   budget: BudgetEvent;
   live: LiveEvent;

@@ -240,6 +240,10 @@ const en = {
   boneShiftHint: 'Upwards, or forward for a sagittal split (cut_shift_mm of surgery.bone)',
   boneMore: 'Turn it, place the cut',
   boneBack: 'Back where it was',
+  boneDivide: 'Skull and jaw are divided wrongly…',
+  boneDivideSkull: 'Click on a place of the upper jaw or the skull. Escape ends.',
+  boneDivideJaw: 'Now click on a place of the lower jaw. Escape ends.',
+  boneDividing: 'Dividing them anew …',
   boneResults: 'The face at rest',
   boneLandmark: 'Landmark',
   boneAtRest: 'Moved, mm',
@@ -277,7 +281,7 @@ const en = {
   embedded: 'Face built into Hyperex',
   startedWith: (name: string) => `Open ${name} again`,
   chooseFiles: 'Choose files…',
-  drop: 'Or drop anywhere: a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML). A recording alone moves the face that is open.',
+  drop: 'Or drop anywhere: a scan (PLY, OBJ, STL, GLB), a CT (its DICOM folder as ZIP, NIfTI, NRRD), a recording (CSV, TRC, video, ARKit, OpenFace, a folder of pictures as ZIP), a scene (TOML). A recording alone moves the face that is open.',
   compareTitle: (earlier: string) => `Before this recording, ${earlier} moved the face. If both are of one person:`,
   comparePerformed: 'What was performed',
   compareGo: 'What has changed?',
@@ -295,7 +299,7 @@ const en = {
   autosaveDeleteSure: 'Delete this unsaved work for good? It cannot be brought back.',
   tooManyScans: (names: string) => `One scan at a time: ${names}. Expected a scan, a recording, or both, or a scene.`,
   recordingAlone: (name: string) => `${name}: a recording needs the scan that it moves, and no face is open: choose both files together.`,
-  expectedFiles: 'expected a scan (PLY, OBJ, STL, GLB), a recording (CSV, TRC, video, pictures as ZIP) or a scene (TOML)',
+  expectedFiles: 'expected a scan (PLY, OBJ, STL, GLB), a CT (ZIP, NIfTI, NRRD), a recording (CSV, TRC, video, pictures as ZIP) or a scene (TOML)',
   fileProblems: {
     empty: (name, expected) => `${name} is empty: ${expected}.`,
     picture: (name, expected) => `${name} is a picture: ${expected}. A photo is no scan; the pictures of a recording come in one ZIP with rgb.txt.`,
@@ -306,6 +310,11 @@ const en = {
   tooManyRecordings: (names: string) => `One recording at a time: ${names}.`,
   openingNow: (name: string) => `Opening ${name} …`,
   discard: 'What is not saved is lost. Open anyway?',
+
+  // CT.
+  ct: 'CT',
+  ctSay: 'What was found in the CT. Press a picture to see it whole.',
+  ctPictures: { slices: 'Slices, with the outlines of skin, skull and jaw', bones_through_skin: 'The bones through the skin', thickness: 'Thickness of the soft tissue' } as Record<string, string>,
 
   // Landmarks.
   landmarks: 'Landmarks',

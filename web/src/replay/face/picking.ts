@@ -86,6 +86,12 @@ export class Picking {
     return { x: left + ((at.x + 1) / 2) * width, y: ((1 - at.y) / 2) * this.host.clientHeight };
   }
 
+  /** The ray of a place in the window, over the last face shown. */
+  rayOnLast(clientX: number, clientY: number): Raycaster {
+    const passes = this.passes();
+    return this.rayAt(clientX, clientY, passes[passes.length - 1]);
+  }
+
   private passAt(clientX: number): { pass: Pass; side: number } | null {
     const x = clientX - this.host.getBoundingClientRect().left;
     const passes = this.passes();

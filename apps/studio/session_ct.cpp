@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A CT as the scan and the bones of a face.
+#include <fmt/format.h>
+
+#include <array>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
+#include "hyperex/ct/outputs.hpp"
+#include "hyperex/ct/read_series.hpp"
+#include "hyperex/ct/summary.hpp"
+#include "hyperex/scene/scene_text.hpp"
+#include "session.hpp"
+#include "upload_name.hpp"
+
+namespace hyperex::studio {
+namespace {
+
+Vec3 point_of(const json& fields, const char* name) {
+  const json& value = fields.at(name);
+  const bool fits =
+      value.is_array() && value.size() == 3 &&
+      std::all_of(value.begin(), value.end(), [](const json& one) { return one.is_number(); });
+  if (!fits) throw InputError(std::string(name) + ": expected three numbers, metres");
+  return Vec3(value[0], value[1], value[2]);
+}
+
+}  // namespace
+
+bool Session::is_ct(const fs::path& file) {
+  return ending_of(file) == ".zip" || ct::is_volume_file(file);
+}
+
+fs::path Session::write_bones(const ct::CtFace& face) {
+  const fs::path folder = uploads() / unused_name(uploads(), "ct");
+  fs::create_directories(folder);
+  report_progress("writing the surfaces of the CT");
+  ct::write_ct(face, folder);
+  for (const std::string& note : face.notes) log("note", note);
+  for (const std::string& warning : face.warnings) log("warning", warning);
+  for (const std::string& line : ct::summary_lines(face)) log("note", line);
+  return folder;
+}
+
+std::string Session::ct_scene(const fs::path& file, const fs::path& recording) {
+  report_progress("reading the CT");
+  ct::CtFace face = [&] {
+    // It names the patient, and is not needed any more.
+    struct Removed {
+      const fs::path& file;
+      ~Removed() {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+      }
+    } const removed{file};
+    ct::SeriesVolume series = ct::read_series(file);
+    report_progress("finding skin, skull and jaw");
+    return ct::face_of_series(std::move(series));
+  }();
+  const fs::path folder = write_bones(face);
+  ct_ = std::make_unique<ct::SeriesVolume>(std::move(face.series));
+  std::string text = scan_scene(folder / "skin.ply", recording);
+  text = scene::with_value(text, "title", "A face from a CT");
+  text = scene::with_value(text, "scan.unit", "mm");
+  return scene::with_value(text, "anatomy.ct", fs::absolute(folder).string());
+}
+
+void Session::send_ct_pictures() {
+  const fs::path folder = require_face().scene().anatomy.ct;
+  report::BinaryBlock block;
+  json pictures = json::object();
+  if (!folder.empty())
+    for (const char* name : {"slices", "bones_through_skin", "thickness"}) {
+      const fs::path file = folder / (std::string(name) + ".png");
+      if (!fs::is_regular_file(file)) continue;
+      const std::string bytes = read_file(file);
+      pictures[name] = block.add("uint8", bytes.data(), bytes.size());
+    }
+  send_(
+      binary_message({{"event", "ct"}, {"pictures", pictures}, {"divides", ct_ != nullptr}}, block),
+      true, "ct");
+}
+
+json Session::ct_seeds(const json& fields) {
+  require_face();
+  if (!ct_) throw InputError("the CT was not opened in this session: expected one to be open");
+  ct::CtOptions options;
+  options.seeds = ct::Seeds{point_of(fields, "skull"), point_of(fields, "mandible")};
+  report_progress("dividing skull and jaw");
+  const fs::path folder = write_bones(ct::face_of_series(ct::SeriesVolume(*ct_), options));
+  commit(scene::with_value(now_.text, "anatomy.ct", fs::absolute(folder).string()));
+  report_progress("");
+  return json::object();
+}
+
+}  // namespace hyperex::studio
