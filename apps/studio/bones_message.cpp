@@ -58,6 +58,7 @@ json bones_json(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                         {"half_width_m", segment.half_width_m},
                         {"ends_at", segment.ends_at ? triple(*segment.ends_at) : json()}});
   json out = {{"axes", {triple(frame.x), triple(frame.y), triple(frame.z)}},
+              {"middle", triple(frame.origin)},
               {"segments", segments},
               {"skull", nullptr},
               {"mandible", nullptr}};

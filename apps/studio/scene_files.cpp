@@ -132,7 +132,12 @@ std::string with_uploads(const std::string& text, const fs::path& uploads) {
     // A saved scene names files in a folder beside it; uploads have no folders.
     const std::string name = fs::path(path.get<std::string>()).filename().string();
     if (!is_upload_name(name) || !fs::exists(uploads / name))
-      throw InputError(fmt::format("the scene names {}: open that file together with it", name));
+      throw InputError(
+          fs::path(name).has_extension()
+              ? fmt::format("the scene names {}: open that file together with it", name)
+              : fmt::format("the scene names the folder {}: open it from the command line "
+                            "(hyperex studio SCENE.toml)",
+                            name));
     path = (uploads / name).string();
   };
   return with_paths(text, taken);

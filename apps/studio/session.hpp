@@ -118,8 +118,8 @@ class Session {
   // A CT (session_ct.cpp).
   /// Whether an upload is opened as a CT.
   static bool is_ct(const std::filesystem::path& file);
-  /// A scene of the CT's skin on its own bones. Removes `file`, which names the patient.
-  std::string ct_scene(const std::filesystem::path& file, const std::filesystem::path& recording);
+  /// Opens the CT's skin on its own bones.
+  void open_ct(const std::filesystem::path& file, const std::filesystem::path& recording);
   /// Writes what was found in a CT into a new folder and reports its notes.
   std::filesystem::path write_bones(const ct::CtFace& face);
   /// The pictures of the CT of the open face; none where it has no CT.
@@ -184,7 +184,7 @@ class Session {
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        budget_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
-  std::unique_ptr<ct::SeriesVolume> ct_;  ///< that was opened last in this session
+  std::unique_ptr<ct::SeriesVolume> ct_;  ///< of the open face, if it was opened from its CT
   std::optional<SurfaceTree> scan_;  ///< of the open face; built when a landmark is first moved
   io::Landmarks moved_;              ///< since the last landmarks_done()
   int landmark_files_ = 0, takes_ = 0;

@@ -33,7 +33,7 @@ bool Session::is_ct(const fs::path& file) {
 }
 
 fs::path Session::write_bones(const ct::CtFace& face) {
-  const fs::path folder = uploads() / unused_name(uploads(), "ct");
+  const fs::path folder = options_.folder / unused_name(options_.folder, "ct");
   fs::create_directories(folder);
   report_progress("writing the surfaces of the CT");
   ct::write_ct(face, folder);
@@ -43,27 +43,18 @@ fs::path Session::write_bones(const ct::CtFace& face) {
   return folder;
 }
 
-std::string Session::ct_scene(const fs::path& file, const fs::path& recording) {
+void Session::open_ct(const fs::path& file, const fs::path& recording) {
   report_progress("reading the CT");
-  ct::CtFace face = [&] {
-    // It names the patient, and is not needed any more.
-    struct Removed {
-      const fs::path& file;
-      ~Removed() {
-        std::error_code ignored;
-        fs::remove(file, ignored);
-      }
-    } const removed{file};
-    ct::SeriesVolume series = ct::read_series(file);
-    report_progress("finding skin, skull and jaw");
-    return ct::face_of_series(std::move(series));
-  }();
+  ct::SeriesVolume series = ct::read_series(file);
+  report_progress("finding skin, skull and jaw");
+  ct::CtFace face = ct::face_of_series(std::move(series));
   const fs::path folder = write_bones(face);
-  ct_ = std::make_unique<ct::SeriesVolume>(std::move(face.series));
   std::string text = scan_scene(folder / "skin.ply", recording);
   text = scene::with_value(text, "title", "A face from a CT");
   text = scene::with_value(text, "scan.unit", "mm");
-  return scene::with_value(text, "anatomy.ct", fs::absolute(folder).string());
+  text = scene::with_value(text, "anatomy.ct", fs::absolute(folder).string());
+  open_text(text, options_.folder / "scene.toml");
+  ct_ = std::make_unique<ct::SeriesVolume>(std::move(face.series));
 }
 
 void Session::send_ct_pictures() {
@@ -84,7 +75,7 @@ void Session::send_ct_pictures() {
 
 json Session::ct_seeds(const json& fields) {
   require_face();
-  if (!ct_) throw InputError("the CT was not opened in this session: expected one to be open");
+  if (!ct_) throw InputError("the open face is not of a CT that was opened in this session");
   ct::CtOptions options;
   options.seeds = ct::Seeds{point_of(fields, "skull"), point_of(fields, "mandible")};
   report_progress("dividing skull and jaw");

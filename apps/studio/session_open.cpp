@@ -57,7 +57,15 @@ json Session::open(const json& fields) {
     static_cast<void>(uploaded(recording));  // unpacks it; the scene names it by itself
     open_text(with_uploads(read_file(file), uploads()), file);
   } else if (is_ct(file)) {
-    open_text(ct_scene(file, uploaded(recording)), options_.folder / "scene.toml");
+    // A CT names the patient; this copy is not needed once it is read.
+    struct Removed {
+      const fs::path& file;
+      ~Removed() {
+        std::error_code ignored;
+        fs::remove(file, ignored);
+      }
+    } const removed{file};
+    open_ct(file, uploaded(recording));
   } else {
     open_text(scan_scene(file, uploaded(recording)), options_.folder / "scene.toml");
   }
@@ -99,6 +107,7 @@ void Session::make_face(const std::string& text, const fs::path& file) {
 
 void Session::open_text(const std::string& text, const fs::path& file) {
   make_face(text, file);
+  ct_.reset();
   now_ = {text, file};
   undo_.clear();
   redo_.clear();

@@ -140,7 +140,10 @@ void run_studio(const StudioOptions& options) {
   fs::create_directory(how.uploads);
   ServerEvents events;
   events.request = [&](const std::string& text) { receive(text, queue, *session, *server); };
-  events.uploaded = [](const std::string& name) { spdlog::info("uploaded: {}", name); };
+  // Not its name, which may be a patient's.
+  events.uploaded = [](const std::string& name) {
+    spdlog::info("uploaded: a file of the kind {}", fs::path(name).extension().string());
+  };
   server = std::make_unique<Server>(std::move(how), std::move(events));
   session =
       std::make_unique<Session>(session_options(options, folder, queue),

@@ -54,6 +54,24 @@ TEST_F(Surgery, WritesMillimetresAndPicturesOfTheFaceAfterwards) {
   EXPECT_EQ(call("run scene.toml --out out").status, 0);
 }
 
+TEST_F(Surgery, OfBaseIsNotThatOfItsVariants) {
+  write(
+      "muscles.gain = { side_R = 0.5 }\n[[variant]]\nname = \"farther\"\n"
+      "bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]",
+      "surgery = { bone = [{ part = \"mandible\", move_mm = [0, 0, 4] }] }\n"
+      "drive = { by = \"muscles\" }\n");
+  const Outcome outcome = call("run scene.toml --out out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  const auto table = nlohmann::json::parse(read_file(in("out/summary.json")))["variants"]["table"];
+  EXPECT_FALSE(table[1].contains("surgery")) << "its bones lie as those of base";
+  ASSERT_TRUE(table[2].contains("surgery"));
+  for (const auto& one : table[2]["surgery"]["landmarks"]) {
+    EXPECT_FALSE(one.contains("soft_per_bone")) << "2 mm more are no advancement of 6 mm";
+    if (one["landmark"] != "pogonion") continue;
+    EXPECT_NEAR(one["at_rest_mm"][2], 2, 0.5);
+  }
+}
+
 TEST_F(Surgery, IsRefusedInOneSentence) {
   const auto refused = [&](const std::string& variant, const std::string& more = "") {
     write(variant, more);

@@ -90,7 +90,7 @@ const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => 
 const segment = (part, cut, turns_about, plane_at, plane_normal) => ({ part, cut, turns_about, plane_at, plane_normal, half_width_m: 0, ends_at: null });
 /** Without the person's own bones. */
 const bones = {
-  axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], skull: null, mandible: null,
+  axes: [[1, 0, 0], [0, 1, 0], [0, 0, 1]], middle: [0, 0, 0], skull: null, mandible: null,
   segments: [
     segment('skull', 'whole', [0, 0, 0], [0, 0, 0], [0, 0, 0]), segment('maxilla', 'le_fort_1', [0, 0.01, 0.07], [0, 0.02, 0.07], [0, -1, 0]),
     segment('mandible', 'bsso', [0, -0.02, 0.07], [0, -0.02, 0.03], [0, 0, 1]), segment('chin', 'genioplasty', [0, -0.05, 0.06], [0, -0.04, 0.06], [0, -1, 0]),

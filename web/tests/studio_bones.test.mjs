@@ -159,15 +159,29 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     await page.getByRole('button', { name: 'Skull and jaw are divided wrongly' }).click();
     const { x, y, width, height } = await page.locator('#face').boundingBox();
     const status = page.locator('.bones-panel [role=status]');
+    const before = await page.locator('.ct-pictures img').first().getAttribute('src');
     await page.mouse.click(x + 0.5 * width, y + 0.28 * height);
     await page.waitForFunction(() => /lower jaw/.test(document.querySelector('.bones-panel [role=status]').textContent));
     await page.mouse.click(x + 0.5 * width, y + 0.72 * height);
     await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('ct-2'));
     await settled();
     assert.equal(await status.textContent(), '');
+    // Its pictures are new.
+    await page.waitForFunction((old) => document.querySelector('.ct-pictures img').getAttribute('src') !== old, before);
     await page.click('#undo');
     await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('ct-2'));
     await settled();
+    // Another face has no CT.
+    const divide = page.getByRole('button', { name: 'Skull and jaw are divided wrongly' });
+    assert.equal(await divide.isVisible(), true);
+    page.on('dialog', (dialog) => void dialog.accept());
+    await page.click('#open-files');
+    await page.locator('#open-panel').getByRole('button', { name: 'Face built into Hyperex' }).click();
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('embedded'));
+    await settled();
+    assert.equal(await divide.isVisible(), false);
+    assert.equal(await page.locator('#ct-panel').isVisible(), false);
+    assert.doesNotMatch(studio.said(), /doe|jane|1970/i);
     assert.deepEqual(complaints, []);
     await close();
   });

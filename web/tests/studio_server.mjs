@@ -54,6 +54,8 @@ export async function startStudio(args = [], { port, folder: given } = {}) {
   };
   return {
     address, folder, env, port: Number(new URL(address).port),
+    /** What it has printed to standard error. */
+    said: () => err,
     kill: () => end('SIGKILL'),
     stop: async () => {
       await end('SIGTERM');

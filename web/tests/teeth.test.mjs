@@ -125,3 +125,14 @@ test('the lining of the mouth lies in the page where the model has it', async ()
   assert.ok(farthest > 5e-3, `it moves: ${farthest}`);
   assert.ok(most < 3e-5, `${most} m apart`);
 });
+
+test('the upper teeth lie where surgery put them, in that face alone', async () => {
+  const { Teeth } = await imported('replay/face/teeth.ts');
+  const teeth = new Teeth({ teeth: [] });
+  const [upper] = teeth.object.children;
+  teeth.moveTo({ jaw: null, upperTeeth: [0, 0, 0.6, 0.8, 0.001, 0.002, 0.004] }, 0);
+  assert.deepEqual(upper.position.toArray(), [0.001, 0.002, 0.004]);
+  assert.deepEqual(upper.quaternion.toArray(), [0, 0, 0.6, 0.8]);
+  teeth.moveTo({ jaw: null, upperTeeth: null }, 0);
+  assert.deepEqual([...upper.position.toArray(), ...upper.quaternion.toArray()], [0, 0, 0, 0, 0, 0, 1]);
+});

@@ -19,8 +19,12 @@ namespace hyperex::run {
 namespace {
 
 std::vector<metrics::SoftTissueMove> moves_of(const Results& base, const VariantRun& run) {
-  return metrics::soft_tissue_moves(base.simulation.performance, run.simulation.performance,
-                                    base.inputs.landmarks, run.scene.surgery.bones);
+  // Where base moves bones too, the face at rest differs by less than what the variant moves, and
+  // no ratio is published for that.
+  const std::vector<simulate::BoneMove> none;
+  return metrics::soft_tissue_moves(
+      base.simulation.performance, run.simulation.performance, base.inputs.landmarks,
+      base.scene.surgery.bones.empty() ? run.scene.surgery.bones : none);
 }
 
 /// The face before and after surgery, at rest and at the peak of base, from the front and in
@@ -75,6 +79,10 @@ void draw_surgery(const Results& base, const VariantRun& run, const std::filesys
 }
 
 }  // namespace
+
+bool moves_bones(const Results& base, const VariantRun& run) {
+  return run.scene.surgery.bones != base.scene.surgery.bones;
+}
 
 void write_surgery(const Results& base, const VariantRun& run,
                    const std::filesystem::path& directory) {

@@ -10,6 +10,9 @@
 namespace hyperex::run {
 using session::VariantRun;
 
+/// Whether a variant moves bones otherwise than base does.
+bool moves_bones(const Results& base, const VariantRun& run);
+
 /// Writes surgery.csv (metrics/soft_tissue_moves.hpp) and surgery.png into the folder of a variant
 /// in which bones are moved.
 void write_surgery(const Results& base, const VariantRun& run,

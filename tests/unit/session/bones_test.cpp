@@ -87,42 +87,6 @@ TEST_F(OwnBones, ThatAreTheEstimatedOnesGiveTheSameMotion) {
   EXPECT_LT(apart, 0.05) << "over cavities no springs hold the tissue";
 }
 
-/// Mean distance (mm) of the skin at the peak from the truth.
-double error_mm(FaceSession session, const TriMesh& truth) {
-  const simulate::Performance& p = session.performance();
-  const PointsF& peak = p.skin_displacement_m[std::size_t(p.peak_frame)];
-  return 1e3 * (p.skin_rest.points + peak.cast<double>() - truth.points)
-                   .topRows(p.scan_vertices)
-                   .rowwise()
-                   .norm()
-                   .mean();
-}
-
-TEST_F(OwnBones, ThatAreTheEstimatedOnesKeepTheErrorsOfSubjectA) {
-  const fs::path truth = fs::path(HYPEREX_SHARED_DIR) / "data/ict/subject_A_mouth_open_truth.ply";
-  if (!fs::exists(truth)) GTEST_SKIP() << "no " << truth;
-  const TriMesh open = io::read_mesh(truth, io::LengthUnit::millimetre);
-  const auto session_with = [&](std::vector<std::string> more) {
-    return FaceSession(
-        scene::read_scene(HYPEREX_SOURCE_DIR "/bench/scenes/subject_a_mouth_open.toml", more),
-        {.certainty = Certainty::on_request});
-  };
-  std::vector<std::string> bones = {"anatomy.unit=mm"};
-  {
-    FaceSession plain = session_with({});
-    for (const auto& [name, bone] : {std::pair{"skull", anatomy::Bone::skull},
-                                     std::pair{"mandible", anatomy::Bone::mandible}}) {
-      const fs::path file = folder_ / (std::string(name) + ".ply");
-      io::write_ply(file, test::estimated_bone(plain.mesh(), plain.inputs().landmarks, bone),
-                    io::LengthUnit::millimetre);
-      bones.push_back(std::string("anatomy.") + name + "=" + file.string());
-    }
-  }
-  const double plain = error_mm(session_with({}), open), own = error_mm(session_with(bones), open);
-  std::cout << "  mean error " << plain << " mm, on given bones " << own << " mm\n";
-  EXPECT_NEAR(own / plain, 1, 0.02);
-}
-
 TEST_F(OwnBones, OfACtAreLaidOnTheScan) {
   Eigen::Isometry3d ct_from_scan = Eigen::Isometry3d::Identity();
   ct_from_scan.linear() =

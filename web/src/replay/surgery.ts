@@ -35,7 +35,7 @@ export const directionWords = (move: Vec3): string =>
     .map(({ by, way }) => `${fixed(Math.abs(by), 1)} ${way}`)
     .join(', ');
 
-/** A row of surgery.bone in words: "mandible 6 mm forward, front 4° down". */
+/** A row of surgery.bone in words: "mandible 6 mm forward, front 4 deg down, whole bone". */
 export function boneWords(row: Record<string, unknown>): string {
   const part = typeof row.part === 'string' ? row.part.replaceAll('_', ' ') : 'bone';
   const numbers = (value: unknown): number[] => (Array.isArray(value) ? value.map(Number) : []);
@@ -47,5 +47,8 @@ export function boneWords(row: Record<string, unknown>): string {
     const [what, plus, minus] = turns[axis];
     return [`${what} ${short(by)} deg ${by < 0 ? minus : plus}`];
   });
-  return [part, [...moved, ...turned].join(', ') || 'not moved'].join(' ');
+  const shift = Number(row.cut_shift_mm ?? 0);
+  const [plus, minus] = row.part === 'mandible' ? ways[2] : ways[1];
+  const cut = [...(row.cut === 'whole' && row.part !== 'skull' ? ['whole bone'] : []), ...(shift ? [`cut ${short(shift)} mm ${shift < 0 ? minus : plus}`] : [])];
+  return [part, [[...moved, ...turned].join(', ') || 'not moved', ...cut].join(', ')].join(' ');
 }

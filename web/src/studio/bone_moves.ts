@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of surgery.bone, which segment of bone moves and how, and what the server says about segments. No DOM here.
+// Reads and writes the rows of surgery.bone. Reads what the server says about segments of bone. No DOM here.
 import type { Block, Stretch } from '../page/page_data';
 import type { Vec3 } from '../replay/data';
 import { isRecord } from './messages';
@@ -30,7 +30,7 @@ export function movesOf(value: unknown): BoneMove[] {
 export const moveOf = (moves: BoneMove[], part: BonePart): BoneMove =>
   moves.find((move) => move.part === part) ?? { part, cut: 'standard', move_mm: [0, 0, 0], turn_deg: [0, 0, 0], cut_shift_mm: 0 };
 
-const isStill = ({ move_mm, turn_deg }: BoneMove): boolean => [...move_mm, ...turn_deg].every((value) => value === 0);
+export const isStill = ({ move_mm, turn_deg }: BoneMove): boolean => [...move_mm, ...turn_deg].every((value) => value === 0);
 
 /** The moves with another one of the same part. One that moves nothing is left out. */
 export function withMove(moves: BoneMove[], next: BoneMove): BoneMove[] {
@@ -61,6 +61,8 @@ export interface Surface {
 /** Of the event face. */
 export interface BonesKnown {
   axes: [left: Vec3, up: Vec3, forward: Vec3];
+  /** A place in the middle of the face. */
+  middle: Vec3;
   segments: BoneSegment[];
   skull: Surface | null;
   mandible: Surface | null;

@@ -29,13 +29,12 @@ export function motionOf({ move_mm, turn_deg }: BoneMove, { turns_about }: BoneS
 }
 
 /** Whether a place on the segment's bone belongs to it. */
-function holds(segment: BoneSegment, shiftM: number, left: Vector3, forward: Vector3, at: Vector3): boolean {
+function holds(segment: BoneSegment, shiftM: number, { axes, middle }: BonesKnown, at: Vector3): boolean {
   const normal = new Vector3(...segment.plane_normal);
   const along = at.clone().sub(new Vector3(...segment.plane_at)).dot(normal);
   if (normal.lengthSq() > 0 && along <= shiftM) return false;
-  if (segment.ends_at && at.clone().sub(new Vector3(...segment.ends_at)).dot(forward) <= 0) return false;
-  const middle = new Vector3(...segment.turns_about);
-  return segment.half_width_m === 0 || Math.abs(at.clone().sub(middle).dot(left)) < segment.half_width_m;
+  if (segment.ends_at && at.clone().sub(new Vector3(...segment.ends_at)).dot(new Vector3(...axes[2])) <= 0) return false;
+  return segment.half_width_m === 0 || Math.abs(at.clone().sub(new Vector3(...middle)).dot(new Vector3(...axes[0]))) < segment.half_width_m;
 }
 
 function meshOf(points: Float32Array, triangles: number[], colour: string): Mesh {
@@ -167,7 +166,6 @@ export class BoneView {
   /** The triangles that stay, and those of the segment. */
   private divided({ points, triangles }: Surface): [number[], number[]] {
     const { segment, bones, move } = this;
-    const [left, , forward] = bones.axes.map((axis) => new Vector3(...axis));
     // The plane is shifted upwards, or forward for a split of the mandible.
     const shiftM = (move.cut_shift_mm / 1e3) * (segment.cut === 'bsso' ? 1 : -1);
     const [kept, moved]: [number[], number[]] = [[], []];
@@ -175,7 +173,7 @@ export class BoneView {
     for (let t = 0; t < triangles.length; t += 3) {
       at.set(0, 0, 0);
       for (let k = 0; k < 3; ++k) for (let c = 0; c < 3; ++c) at.setComponent(c, at.getComponent(c) + points[3 * triangles[t + k] + c] / 3);
-      (holds(segment, shiftM, left, forward, at) ? moved : kept).push(triangles[t], triangles[t + 1], triangles[t + 2]);
+      (holds(segment, shiftM, bones, at) ? moved : kept).push(triangles[t], triangles[t + 1], triangles[t + 2]);
     }
     return [kept, moved];
   }

@@ -2,7 +2,7 @@
 // Surgery: segments of bone moved by numbers, by sliders or by their arrows over the face, and what that does to the
 // face at rest, beside published ratios.
 import { button, element } from '../page/dom';
-import { landmarkName, upper } from '../page/format';
+import { fixed, landmarkName, upper } from '../page/format';
 import { rememberFold } from '../page/remember';
 import type { Vec3 } from '../replay/data';
 import { frameAt } from '../replay/face/deform';
@@ -11,7 +11,7 @@ import { directionWords, softTissueMoves } from '../replay/surgery';
 import { variantsOf } from '../replay/variants';
 import { BoneDivision } from './bone_division';
 import { BoneHandles } from './bone_handles';
-import { boneKey, boneParts, moveOf, movesOf, withMove, type BoneMove, type BonePart, type BonesKnown } from './bone_moves';
+import { boneKey, boneParts, isStill, moveOf, movesOf, withMove, type BoneMove, type BonePart, type BonesKnown } from './bone_moves';
 import { axisColours, BoneView } from './bone_view';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
@@ -21,6 +21,8 @@ import type { StudioState } from './studio_state';
 import { words } from './words';
 
 const [mostMm, mostDeg] = [15, 15];
+/** Of digits and arrows, as surgery.bone allows. */
+const most = 30;
 const tenth = (value: number): number => Math.round(10 * value) / 10;
 
 export class BonesPanel implements RemarkPanel {
@@ -36,12 +38,15 @@ export class BonesPanel implements RemarkPanel {
   private readonly shift: Slider;
   private readonly note = element('p', '', 'why');
   private readonly results = element('table', '', 'bone-results');
-  private readonly back = button(words.boneBack, 'quiet', () => this.commit({ ...this.move, move_mm: [0, 0, 0], turn_deg: [0, 0, 0] }));
+  private readonly back = button(words.boneBack, 'quiet', () => this.commit(this.inBase));
   private readonly divide = button(words.boneDivide, 'quiet', () => this.startDivision());
   private readonly dividing = element('p', '', 'why');
   private division: BoneDivision | null = null;
   private bones: BonesKnown | null = null;
   private visible = false;
+  private paused = false;
+  /** Cuts of a face that were chosen before anything moved. */
+  private pending: { face: number; cuts: Map<string, Pick<BoneMove, 'cut' | 'cut_shift_mm'>> } | null = null;
   private shown: { view: BoneView; handles: BoneHandles; of: string } | null = null;
 
   constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly connection: Connection,
@@ -59,9 +64,9 @@ export class BonesPanel implements RemarkPanel {
     for (const axis of [2, 1, 0]) this.moves[axis] = this.slider('move_mm', axis, words.boneMoves[axis], mostMm, 'mm', words.boneMoveHint);
     for (const axis of [0, 1, 2]) this.turns[axis] = this.slider('turn_deg', axis, words.boneTurns[axis], mostDeg, '°', words.boneTurnHint);
     this.shift = new Slider({
-      name: words.boneShift, unit: 'mm', hint: words.boneShiftHint, course: linear(-mostMm, mostMm), round: tenth, low: -50, high: 50,
+      name: words.boneShift, unit: 'mm', hint: words.boneShiftHint, course: linear(-mostMm, mostMm), round: tenth, low: -most, high: most,
       live: (value) => this.live({ ...this.move, cut_shift_mm: value }),
-      done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? 0 }),
+      done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? this.inBase.cut_shift_mm }),
     });
     const more = element('details', '', 'muscle-group');
     more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
@@ -86,8 +91,15 @@ export class BonesPanel implements RemarkPanel {
 
   /** After the stage was made again. */
   attach(): void {
+    if (this.division) this.endDivision('');
     this.shown?.handles.dispose();
     this.shown = null;
+    this.showBones();
+  }
+
+  /** While other marks are shown over the face. */
+  pause(on: boolean): void {
+    this.paused = on;
     this.showBones();
   }
 
@@ -100,7 +112,7 @@ export class BonesPanel implements RemarkPanel {
     return [];
   }
 
-  private slider(key: 'move_mm' | 'turn_deg', axis: number, name: string, most: number, unit: string, hint: string): Slider {
+  private slider(key: 'move_mm' | 'turn_deg', axis: number, name: string, length: number, unit: string, hint: string): Slider {
     const head = element('span', '', 'bone-axis');
     const dot = element('i');
     if (key === 'move_mm') dot.style.background = axisColours[axis];
@@ -112,9 +124,9 @@ export class BonesPanel implements RemarkPanel {
       return { ...move, [key]: next };
     };
     const slider = new Slider({
-      name, unit, hint, course: linear(-most, most), round: tenth, low: -90, high: 90, head,
+      name, unit, hint, course: linear(-length, length), round: tenth, low: -most, high: most, head,
       live: (value) => this.live(withValue(value)),
-      done: (value) => this.commit(withValue(value ?? 0)),
+      done: (value) => this.commit(withValue(value ?? this.inBase[key][axis])),
     });
     slider.element.dataset.bone = `${key}.${axis}`;
     return slider;
@@ -126,12 +138,12 @@ export class BonesPanel implements RemarkPanel {
 
   private get move(): BoneMove {
     const own = this.all.find(({ part }) => part === this.part);
-    return own ?? { ...moveOf([], this.part), ...this.cutOnly };
+    return own ?? { ...moveOf([], this.part), ...(this.pending?.face === this.state.edited ? this.pending.cuts.get(this.part) : {}) };
   }
 
-  /** A cut that was chosen before anything moves. */
-  private get cutOnly(): Partial<BoneMove> {
-    return this.part === 'mandible' && this.cut.value === 'whole' ? { cut: 'whole' } : {};
+  /** What base does with the same part. */
+  private get inBase(): BoneMove {
+    return moveOf(movesOf(this.state.valuesOf(0)[boneKey]), this.part);
   }
 
   private choose(part: BonePart): void {
@@ -140,12 +152,18 @@ export class BonesPanel implements RemarkPanel {
   }
 
   private live(next: BoneMove): void {
-    this.shown?.view.set(next);
-    this.viewer()?.redraw();
-    this.edits.live({ [boneKey]: withMove(this.all, next) });
+    this.showBones(next);
+    if (!isStill(next)) this.edits.live({ [boneKey]: withMove(this.all, next) });
   }
 
   private commit(next: BoneMove): void {
+    if (isStill(next) && !this.all.some(({ part }) => part === next.part)) {
+      // Nothing moves yet: the cut is kept for what will.
+      if (this.pending?.face !== this.state.edited) this.pending = { face: this.state.edited, cuts: new Map() };
+      this.pending.cuts.set(this.part, { cut: next.cut, cut_shift_mm: next.cut_shift_mm });
+      this.update();
+      return;
+    }
     void this.edits.commit({ [boneKey]: withMove(this.all, next) });
   }
 
@@ -157,14 +175,14 @@ export class BonesPanel implements RemarkPanel {
       choose.classList.toggle('changed', this.all.some((move) => move.part === choose.dataset.part));
     }
     const own = this.move;
-    const base = moveOf(movesOf(state.valuesOf(0)[boneKey]), part);
+    const base = this.inBase;
     for (const axis of [0, 1, 2]) {
       this.moves[axis].set(own.move_mm[axis], base.move_mm[axis]);
       this.turns[axis].set(own.turn_deg[axis], base.turn_deg[axis]);
     }
     this.shift.set(own.cut_shift_mm, base.cut_shift_mm);
     this.cutLabel.hidden = part !== 'mandible';
-    if (this.all.some((move) => move.part === part)) this.cut.value = own.cut === 'whole' ? 'whole' : 'standard';
+    this.cut.value = own.cut === 'whole' ? 'whole' : 'standard';
     this.back.disabled = !this.all.some((move) => move.part === part);
     this.note.textContent = this.bones && (this.bones.skull ?? this.bones.mandible) ? words.bonesOwn : words.bonesGuessed;
     this.fillResults();
@@ -172,13 +190,12 @@ export class BonesPanel implements RemarkPanel {
   }
 
   /** The bones, the cut and the arrows, while this panel is seen. */
-  private showBones(): void {
+  private showBones(move = this.move): void {
     const viewer = this.viewer();
-    if (!viewer || !this.bones || !this.visible) {
+    if (!viewer || !this.bones || !this.visible || this.paused) {
       this.hide();
       return;
     }
-    const { move } = this;
     const of = `${move.part} ${move.cut} ${move.cut_shift_mm}`;
     if (this.shown?.of === of && viewer.shows(this.shown.view)) {
       this.shown.view.set(move);
@@ -186,14 +203,15 @@ export class BonesPanel implements RemarkPanel {
       viewer.redraw();
       return;
     }
+    if (this.division) this.endDivision('');
     this.shown?.handles.dispose();
     const view = new BoneView(this.bones, move);
     viewer.showMarks(view);
     const moved = (moveMm: Vec3, done: boolean) => {
-      const next = { ...this.move, move_mm: moveMm };
+      const next = { ...this.move, move_mm: moveMm.map((mm) => Math.min(Math.max(mm, -most), most)) as Vec3 };
       if (done) this.commit(next);
       else {
-        moveMm.forEach((value, axis) => this.moves[axis].set(value, null));
+        next.move_mm.forEach((value, axis) => this.moves[axis].set(value, null));
         this.live(next);
       }
     };
@@ -268,9 +286,9 @@ export class BonesPanel implements RemarkPanel {
       const line = body.insertRow();
       const name = element('th', upper(landmarkName(landmark)));
       name.scope = 'row';
-      const ratio = element('td', soft_per_bone === undefined ? '' : soft_per_bone.toFixed(2));
+      const ratio = element('td', soft_per_bone === undefined ? '' : fixed(soft_per_bone, 2));
       if (published) {
-        ratio.append(' ', element('small', words.bonePublished(published.low.toFixed(2), published.high.toFixed(2))));
+        ratio.append(' ', element('small', words.bonePublished(fixed(published.low, 2), fixed(published.high, 2))));
         ratio.title = published.source;
       }
       line.append(name, element('td', directionWords(at_rest_mm) || '0.0'), ratio);

@@ -55,9 +55,10 @@ export class LandmarksPanel {
   private readonly load = button(words.landmarksLoad, 'quiet', () => this.picker.click());
   private readonly picker = element('input');
 
+  /** `editing`: called when points begin and end to be shown over the face. */
   constructor(
     private readonly state: StudioState, private readonly connection: Connection, private readonly into: HTMLElement,
-    private readonly viewer: () => FaceViewer | null,
+    private readonly viewer: () => FaceViewer | null, private readonly editing: (on: boolean) => void,
   ) {
     this.begin.title = words.landmarksCorrectHint;
     const label = element('label', '', 'landmark-choice');
@@ -111,6 +112,7 @@ export class LandmarksPanel {
     const { state } = this;
     state.shown.set({ mode: 'single', first: 0 });
     state.playback.seek(state.source.replay.timeS[0]);
+    this.editing(true);
     this.marks = new Marks(this.landmarks.map(({ position }) => [...position]));
     viewer.showMarks(this.marks);
     this.rest(viewer);
@@ -340,14 +342,16 @@ export class LandmarksPanel {
   private end(): void {
     this.undoing.undo();
     this.undoing = new Undoing();
+    const { marks } = this;
     this.marks = null;
     const viewer = this.viewer();
     if (viewer) {
       viewer.turning = true;
-      viewer.showMarks(null);
+      if (marks && viewer.shows(marks)) viewer.showMarks(null);
       viewer.showLive(null);
     }
     this.tools.hidden = true;
     this.begin.hidden = this.load.hidden = false;
+    if (marks) this.editing(false);
   }
 }

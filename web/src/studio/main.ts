@@ -58,7 +58,7 @@ class Studio {
   private readonly drawer = new Drawer();
   private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain), () => this.panels.show('bones'));
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'), () => this.drawer.openFiles());
-  private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null);
+  private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null, (on) => this.bones.pause(on));
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));
   private readonly messages = new MessagesPanel(at('messages-panel'), at('open-messages'), at('message-news'));
   private readonly progress = new Progress(at('progress'));

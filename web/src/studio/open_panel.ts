@@ -117,6 +117,7 @@ export class OpenPanel {
     const of = (...wanted: string[]) => files.filter((file) => wanted.includes(kinds.get(file)!));
     const names = (some: File[]) => some.map(({ name }) => name).join(', ');
     const [scan, scene] = [of('scan', 'ct'), of('scene')];
+    if (scene.length > 0 && of('ct').length > 0) return this.report(words.sceneWithCt(names(of('ct'))));
     if (scene.length + scan.length > 1 && scene.length !== 1) return this.report(words.tooManyScans(names([...scene, ...scan])));
     // A scene may name files of any kind.
     for (const file of scene.length === 0 ? files : of('empty')) {

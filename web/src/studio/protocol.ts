@@ -210,7 +210,7 @@ export type DiscardAutosaveRequest = Record<string, never>;
 export type DiscardAutosaveAnswer = Record<string, never>;
 
 /**
- * Divides skull and mandible of the CT that was opened in this session anew, by a point in either. A change
+ * Divides skull and mandible of the CT that was opened in this session anew, by one point in each. A change
  * that undo takes back; the events face and ct follow.
  */
 export interface CtSeedsRequest {
@@ -312,9 +312,9 @@ export interface FaceEvent {
    */
   activations: unknown;
   /**
-   * axes of the face (to the left, up, forward: unit vectors in the scan's frame), segments (part, cut,
-   * turns_about, plane_at, plane_normal, half_width_m, ends_at; metres), skull and mandible (points,
-   * triangles: arrays; null where not known)
+   * axes of the face (to the left, up, forward: unit vectors in the scan's frame), middle of the face,
+   * segments (part, cut, turns_about, plane_at, plane_normal, half_width_m, ends_at; metres), skull and
+   * mandible (points, triangles: arrays; null where not known)
    */
   bones: unknown;
   /** float32, one per vertex of the skin: thickness of the soft tissue without mesh.thickness_region, mm */

@@ -4,7 +4,7 @@
 import { at } from '../page/dom';
 import { upper } from '../page/format';
 import { menuOf, type Menu } from '../page/menu';
-import { boneKey, boneParts, moveOf } from './bone_moves';
+import { boneKey, boneParts, moveOf, movesOf, withMove } from './bone_moves';
 import { briefName } from './brief_name';
 import { fillChooser, usualPercent, type Choice } from './chooser';
 import type { Edits } from './edits';
@@ -91,7 +91,7 @@ export class WhatIf {
 
   private boneChoices(): Choice[] {
     return boneParts.map((part) => {
-      const changes = { [boneKey]: [{ ...moveOf([], part), move_mm: [0, 0, usualMoveMm] }] };
+      const changes = { [boneKey]: withMove(movesOf(this.state.valuesOf(0)[boneKey]), { ...moveOf([], part), move_mm: [0, 0, usualMoveMm] }) };
       return {
         group: words.boneGroup, value: `bone ${part}`, text: words.boneChoice(words.boneParts[part], usualMoveMm), detail: '',
         take: () => tryChange(() => this.addMoved(changes)),

@@ -298,6 +298,7 @@ const en = {
   autosaveDelete: 'Delete it…',
   autosaveDeleteSure: 'Delete this unsaved work for good? It cannot be brought back.',
   tooManyScans: (names: string) => `One scan at a time: ${names}. Expected a scan, a recording, or both, or a scene.`,
+  sceneWithCt: (names: string) => `${names}: a scene cannot be opened together with a CT. Open the CT alone.`,
   recordingAlone: (name: string) => `${name}: a recording needs the scan that it moves, and no face is open: choose both files together.`,
   expectedFiles: 'expected a scan (PLY, OBJ, STL, GLB), a CT (ZIP, NIfTI, NRRD), a recording (CSV, TRC, video, pictures as ZIP) or a scene (TOML)',
   fileProblems: {

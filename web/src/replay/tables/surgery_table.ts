@@ -3,7 +3,7 @@
 import type { Replay, Vec3 } from '../data';
 import { element } from '../../page/dom';
 import { faceColour } from '../../page/face_colour';
-import { landmarkName, upper } from '../../page/format';
+import { fixed, landmarkName, upper } from '../../page/format';
 import { directionWords, lengthOf, softTissueMoves, type SoftTissueMove } from '../surgery';
 import { variantsOf } from '../variants';
 import { columnNotes, figureCard, figureCell, headCell, type Column } from './figure_table';
@@ -13,7 +13,7 @@ const atRest: Column = {
 };
 const ratio: Column = {
   key: 'soft_per_bone', head: 'Of the bone', unit: '1', digits: 2,
-  says: 'the movement at rest along that of the bone, over that of the bone; given where a ratio is published.',
+  says: 'how far the skin moves in the bone’s direction, divided by how far the bone moves; given where a ratio is published.',
 };
 const published: Column = {
   key: 'published', head: 'Published', unit: 'usual, range', digits: 2,
@@ -37,10 +37,10 @@ function rowOf(body: HTMLTableSectionElement, move: SoftTissueMove): void {
   const row = body.insertRow();
   const name = element('th', upper(landmarkName(move.landmark)));
   name.scope = 'row';
-  const range = element('td', move.published ? move.published.usual.toFixed(2) : '–');
+  const range = element('td', move.published ? fixed(move.published.usual, 2) : '–');
   if (move.published) {
     range.title = move.published.source;
-    range.append(element('small', `${move.published.low.toFixed(2)} to ${move.published.high.toFixed(2)}`));
+    range.append(element('small', `${fixed(move.published.low, 2)} to ${fixed(move.published.high, 2)}`));
   }
   row.append(
     name, movedCell(move.at_rest_mm, atRest), figureCell(move.soft_per_bone, ratio), range,
