@@ -2,7 +2,7 @@
 // A CT as the scan and the bones of a face.
 #include <fmt/format.h>
 
-#include <array>
+#include <algorithm>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"

@@ -14,8 +14,6 @@ const shortestPx = 12;
 
 interface Shaft {
   axis: number;
-  fromX: number;
-  fromY: number;
   alongX: number;
   alongY: number;
   px: number;
@@ -96,7 +94,7 @@ export class BoneHandles {
       const off = Math.hypot(from.x + along * alongX - x, from.y + along * alongY - y);
       if (off >= bestPx) return;
       bestPx = off;
-      best = { axis, fromX: from.x, fromY: from.y, alongX, alongY, px, lengthM };
+      best = { axis, alongX, alongY, px, lengthM };
     });
     return best;
   }
