@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <exception>
 #include <memory>
 
@@ -26,6 +27,17 @@ using simulate::TissueValues;
 
 /// Values a tetrahedron of some parameters are completed by the uniform ones of the others.
 TissueValues completed(TissueValues values, std::size_t tets) {
+  if (!values.volume_ratio.empty()) {
+    const auto refuse = [](const std::string& value, const std::string& expected) {
+      throw InputError(InputProblem{{}, 0, "tissue.volume_ratio", value, expected});
+    };
+    if (values.volume_ratio.size() != tets)
+      refuse(fmt::format("{} values", values.volume_ratio.size()),
+             fmt::format("one for each of the {} tetrahedra", tets));
+    for (const double ratio : values.volume_ratio)
+      if (!(ratio > 0) || !std::isfinite(ratio))
+        refuse(fmt::format("{:g}", ratio), "positive numbers");
+  }
   bool any = false;
   for (const auto& of_one : values.element) any = any || !of_one.empty();
   if (!any) return values;

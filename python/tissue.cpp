@@ -111,6 +111,21 @@ void bind_tissue(py::module_& m) {
   value_field(tissue, "viscosity_pa_s", tissue::viscosity, "Pa s.");
   value_field(tissue, "poisson", tissue::poisson, "Poisson's ratio.");
   value_field(tissue, "density_kg_m3", tissue::density, "kg / m^3.");
+  tissue.custom(
+      "volume_ratio",
+      [](const TissueValues& self) -> py::object {
+        if (self.volume_ratio.empty()) return py::none();
+        return py::array_t<double>(py::ssize_t(self.volume_ratio.size()), self.volume_ratio.data());
+      },
+      [](TissueValues& self, py::handle value) {
+        self.volume_ratio.clear();
+        if (value.is_none()) return;
+        const auto array =
+            value.cast<py::array_t<double, py::array::c_style | py::array::forcecast>>();
+        self.volume_ratio.assign(array.data(), array.data() + array.size());
+      },
+      "NDArray[np.float64] | None",
+      "Volume at rest over that of the mesh, one per tetrahedron, as of filler; None: 1.");
 }
 
 }  // namespace hyperex::python

@@ -42,6 +42,7 @@ simulate::TissueValues field_of(const SharedTissueMesh& mesh, const Face& face,
   TissueField field = maker.make(options);
   if (mesh->full) session::keep_thinned(field, *mesh->full);
   values.element = std::move(field.element);
+  values.volume_ratio = std::move(field.volume_ratio);
   return values;
 }
 

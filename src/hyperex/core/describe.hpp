@@ -47,6 +47,7 @@ struct Unit {
 };
 
 inline constexpr Unit kMillimetres{"mm", "_mm", "m", "_m", 1, 1000};
+inline constexpr Unit kMillilitres{"ml", "_ml", "m^3", "_m3", 1, 1000000};
 inline constexpr Unit kSeconds{"s", "_s", "s", "_s"};
 inline constexpr Unit kHertz{"Hz", "_hz", "Hz", "_hz"};
 inline constexpr Unit kDegrees{"deg", "_deg", "deg", "_deg"};

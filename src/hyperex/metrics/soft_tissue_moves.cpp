@@ -109,6 +109,40 @@ double change_of_nose_width_mm(const simulate::Performance& before,
   return 1e3 * (width(after.landmarks) - width(before.landmarks));
 }
 
+namespace {
+
+/// The skin at rest.
+Points at_rest(const simulate::Performance& of) {
+  if (of.neutral_displacement_m.rows() == 0) return of.skin_rest.points;
+  return of.skin_rest.points + of.neutral_displacement_m.cast<double>();
+}
+
+}  // namespace
+
+double change_of_volume_ml(const simulate::Performance& before,
+                           const simulate::Performance& after) {
+  const Points from = at_rest(before), to = at_rest(after);
+  double volume_m3 = 0;
+  for (const auto& t : before.skin_rest.triangles.rowwise()) {
+    const auto area = [&](double share) -> Vec3 {
+      const auto at = [&](int k) -> Vec3 {
+        return (1 - share) * from.row(t[k]) + share * to.row(t[k]);
+      };
+      return (at(1) - at(0)).cross(at(2) - at(0)) / 2;
+    };
+    Vec3 by = Vec3::Zero();
+    for (int k = 0; k < 3; ++k) by += (to.row(t[k]) - from.row(t[k])).transpose() / 3;
+    // The area vector is quadratic along the way: Simpson's rule is exact for it.
+    volume_m3 += by.dot(area(0) + 4 * area(0.5) + area(1)) / 6;
+  }
+  return 1e6 * volume_m3;
+}
+
+double greatest_change_at_rest_mm(const simulate::Performance& before,
+                                  const simulate::Performance& after) {
+  return 1e3 * (at_rest(after) - at_rest(before)).rowwise().norm().maxCoeff();
+}
+
 void write_soft_tissue_csv(const std::filesystem::path& file,
                            const std::vector<SoftTissueMove>& moves) {
   write_file_atomically(file, [&](std::ostream& out) {

@@ -50,6 +50,13 @@ std::vector<SoftTissueMove> soft_tissue_moves(const simulate::Performance& befor
 double change_of_nose_width_mm(const simulate::Performance& before,
                                const simulate::Performance& after);
 
+/// The volume that the skin at rest gains, ml: what lies between both skins, positive outwards.
+double change_of_volume_ml(const simulate::Performance& before, const simulate::Performance& after);
+
+/// The greatest distance (mm) by which a vertex of the skin at rest differs.
+double greatest_change_at_rest_mm(const simulate::Performance& before,
+                                  const simulate::Performance& after);
+
 /// One row per landmark.
 void write_soft_tissue_csv(const std::filesystem::path& file,
                            const std::vector<SoftTissueMove>& moves);

@@ -27,6 +27,18 @@ std::vector<metrics::SoftTissueMove> moves_of(const Results& base, const Variant
       base.scene.surgery.bones.empty() ? run.scene.surgery.bones : none);
 }
 
+std::vector<tissue::TissueRegion> volumes_of(const scene::Scene& scene) {
+  std::vector<tissue::TissueRegion> out = scene.tissue.regions;
+  std::erase_if(out, [](const tissue::TissueRegion& region) { return region.volume_m3 == 0; });
+  return out;
+}
+
+double added_ml(const scene::Scene& scene) {
+  double sum = 0;
+  for (const tissue::TissueRegion& region : scene.tissue.regions) sum += 1e6 * region.volume_m3;
+  return sum;
+}
+
 /// The face before and after surgery, at rest and at the peak of base, from the front and in
 /// profile.
 void draw_surgery(const Results& base, const VariantRun& run, const std::filesystem::path& file) {
@@ -80,8 +92,9 @@ void draw_surgery(const Results& base, const VariantRun& run, const std::filesys
 
 }  // namespace
 
-bool moves_bones(const Results& base, const VariantRun& run) {
-  return run.scene.surgery.bones != base.scene.surgery.bones;
+bool changes_rest(const Results& base, const VariantRun& run) {
+  return run.scene.surgery.bones != base.scene.surgery.bones ||
+         volumes_of(run.scene) != volumes_of(base.scene);
 }
 
 void write_surgery(const Results& base, const VariantRun& run,
@@ -96,34 +109,59 @@ nlohmann::ordered_json surgery_json(const Results& base, const VariantRun& run) 
           metrics::change_of_nose_width_mm(base.simulation.performance, run.simulation.performance);
       std::isfinite(width))
     out["nose_width_change_mm"] = width;
+  if (volumes_of(run.scene) != volumes_of(base.scene))
+    out["added_volume_ml"] = added_ml(run.scene) - added_ml(base.scene);
+  out["skin_volume_change_ml"] =
+      metrics::change_of_volume_ml(base.simulation.performance, run.simulation.performance);
+  out["greatest_at_rest_mm"] =
+      metrics::greatest_change_at_rest_mm(base.simulation.performance, run.simulation.performance);
   return out;
 }
 
-std::string surgery_lines(const nlohmann::ordered_json& summary) {
+namespace {
+
+std::string volume_words(const nlohmann::ordered_json& surgery) {
+  return fmt::format(
+      "{:.2g} ml {}, of which {:.2g} ml show at the skin; it moves by up to {:.1f} mm",
+      std::abs(surgery["added_volume_ml"].get<double>()),
+      surgery["added_volume_ml"] < 0 ? "taken away" : "added",
+      std::abs(surgery["skin_volume_change_ml"].get<double>()),
+      surgery["greatest_at_rest_mm"].get<double>());
+}
+
+std::string landmark_words(const nlohmann::ordered_json& surgery) {
   constexpr std::array<std::pair<const char*, const char*>, 5> kShown = {
       {{"pogonion", "chin"},
        {"labiale_inferius", "lower lip"},
        {"labiale_superius", "upper lip"},
        {"subnasale", "base of the nose"},
        {"pronasale", "tip of the nose"}}};
+  std::string text;
+  for (const auto& [name, words] : kShown)
+    for (const auto& one : surgery["landmarks"]) {
+      if (one["landmark"] != name) continue;
+      const std::vector<double> by = one["at_rest_mm"];
+      text += fmt::format("{}{} {:.1f} mm", text.empty() ? "" : ", ", words,
+                          std::hypot(by[0], by[1], by[2]));
+      if (one.contains("published"))
+        text += fmt::format(
+            " ({:.2f} of the bone; published {:.2f} to {:.2f})", one["soft_per_bone"].get<double>(),
+            one["published"]["low"].get<double>(), one["published"]["high"].get<double>());
+    }
+  return text;
+}
+
+}  // namespace
+
+std::string surgery_lines(const nlohmann::ordered_json& summary) {
   std::string lines;
   if (!summary.contains("variants")) return lines;
   for (const auto& row : summary["variants"]["table"]) {
     if (!row.contains("surgery")) continue;
-    std::string text;
-    for (const auto& [name, words] : kShown)
-      for (const auto& one : row["surgery"]["landmarks"]) {
-        if (one["landmark"] != name) continue;
-        const std::vector<double> by = one["at_rest_mm"];
-        text += fmt::format("{}{} {:.1f} mm", text.empty() ? "" : ", ", words,
-                            std::hypot(by[0], by[1], by[2]));
-        if (one.contains("published"))
-          text +=
-              fmt::format(" ({:.2f} of the bone; published {:.2f} to {:.2f})",
-                          one["soft_per_bone"].get<double>(), one["published"]["low"].get<double>(),
-                          one["published"]["high"].get<double>());
-      }
-    lines += fmt::format("  {}, at rest: {}\n", row["name"].get<std::string>(), text);
+    const auto& surgery = row["surgery"];
+    lines += fmt::format(
+        "  {}, at rest: {}\n", row["name"].get<std::string>(),
+        surgery.contains("added_volume_ml") ? volume_words(surgery) : landmark_words(surgery));
   }
   return lines;
 }

@@ -85,7 +85,7 @@ Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Co
     one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");
-    if (moves_bones(base, runs[i])) one["surgery"] = surgery_json(base, runs[i]);
+    if (changes_rest(base, runs[i])) one["surgery"] = surgery_json(base, runs[i]);
     table.push_back(one);
   }
   return table;
@@ -115,7 +115,7 @@ Json write_variants(const Results& base, const std::vector<VariantRun>& runs,
            const fs::path folder = directory / "variants" / run.folder;
            fs::create_directories(folder);
            glb[i] = write_outputs(results, folder, &base);
-           if (moves_bones(base, run)) write_surgery(base, run, folder);
+           if (changes_rest(base, run)) write_surgery(base, run, folder);
          });
        }});
   Json json;

@@ -108,7 +108,10 @@ simulate::SimulationOptions FaceSession::Impl::options_of(
     const scene::Scene& of, const Inputs& its_inputs,
     const std::optional<tissue::TissueField>& its_field) const {
   simulate::SimulationOptions options = simulation_options(of, its_inputs);
-  if (its_field) options.tissue.element = its_field->element;
+  if (its_field) {
+    options.tissue.element = its_field->element;
+    options.tissue.volume_ratio = its_field->volume_ratio;
+  }
   return options;
 }
 

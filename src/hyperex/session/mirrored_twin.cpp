@@ -68,9 +68,8 @@ std::optional<simulate::AlignedMotion> mirrored_motion(const simulate::AlignedMo
   return out;
 }
 
-std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
-    const tissue::TissueField& field, const tissue::TissueMesh& mesh,
-    const metrics::MidsagittalPlane& plane) {
+void take_mirrored(const tissue::TissueField& field, const tissue::TissueMesh& mesh,
+                   const metrics::MidsagittalPlane& plane, simulate::TissueValues& values) {
   const Tetrahedra& tets = mesh.volume.tets;
   Points reflected(tets.rows(), 3);
   for (Eigen::Index t = 0; t < tets.rows(); ++t) {
@@ -79,15 +78,20 @@ std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
     reflected.row(t) = plane.reflect(centroid).transpose();
   }
   const auto feet = SurfaceTree(mesh.skin).query_all(reflected);
-  std::array<std::vector<double>, tissue::parameter_count> element;
-  for (int p = 0; p < tissue::parameter_count; ++p)
+  const auto of_elements = [&](const Eigen::VectorXd& skin) {
+    std::vector<double> out;
     for (const ClosestPoint& foot : feet) {
       double value = 0;
       for (int k = 0; k < 3; ++k)
-        value += foot.weights[k] * field.skin[p][mesh.skin.triangles(foot.triangle, k)];
-      element[p].push_back(value);
+        value += foot.weights[k] * skin[mesh.skin.triangles(foot.triangle, k)];
+      out.push_back(value);
     }
-  return element;
+    return out;
+  };
+  for (int p = 0; p < tissue::parameter_count; ++p) values.element[p] = of_elements(field.skin[p]);
+  values.volume_ratio.clear();
+  if (field.skin_volume_ratio.size() > 0)
+    values.volume_ratio = of_elements(field.skin_volume_ratio);
 }
 
 namespace {
@@ -108,7 +112,7 @@ MirroredTwin twin_of(const scene::Scene& scene, const Inputs& inputs,
     move.turn_deg[1] = -move.turn_deg[1];
     move.turn_deg[2] = -move.turn_deg[2];
   }
-  if (field) options.tissue.element = mirrored_elements(*field, simulator->mesh(), plane);
+  if (field) take_mirrored(*field, simulator->mesh(), plane, options.tissue);
   simulator->set_options(std::move(options));
   simulate::SimulationResult result =
       simulator->run({.progress = {}, .cancelled = cancelled, .skin_alone = true});

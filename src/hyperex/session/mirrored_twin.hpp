@@ -34,9 +34,8 @@ std::optional<simulate::AlignedMotion> mirrored_motion(const simulate::AlignedMo
                                                        std::string& why_not);
 
 /// Every tetrahedron takes the field at the point of the skin nearest to its reflected centroid.
-std::array<std::vector<double>, tissue::parameter_count> mirrored_elements(
-    const tissue::TissueField& field, const tissue::TissueMesh& mesh,
-    const metrics::MidsagittalPlane& plane);
+void take_mirrored(const tissue::TissueField& field, const tissue::TissueMesh& mesh,
+                   const metrics::MidsagittalPlane& plane, simulate::TissueValues& values);
 
 /// `field`: where the run's tissue differs from place to place, else null. Uses the reduced model,
 /// whatever the run uses. `run`: a simulator of the run's mesh and motion, whose stages it reuses.

@@ -2,6 +2,7 @@
 #include "hyperex/session/simulation_options.hpp"
 
 #include "hyperex/tissue/field/presets.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::session {
 
@@ -17,8 +18,8 @@ simulate::SimulationOptions simulation_options(const scene::Scene& scene, const 
   o.region = scene.region;
   o.contact = scene.contact;
   o.surgery = scene.surgery;
-  // Bones push the lips against each other.
-  if (!o.surgery.bones.empty()) o.contact.lips = true;
+  // Bones and added volume push the lips against each other.
+  if (!o.surgery.bones.empty() || adds_volume(scene.tissue)) o.contact.lips = true;
   o.solver = scene.solver;
   o.time = scene.time;
   return o;

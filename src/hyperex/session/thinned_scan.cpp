@@ -98,6 +98,8 @@ io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const 
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full) {
   for (Eigen::VectorXd& values : field.skin)
     if (values.size() > 0) values = Eigen::VectorXd(values(full.kept));
+  if (field.skin_volume_ratio.size() > 0)
+    field.skin_volume_ratio = Eigen::VectorXd(field.skin_volume_ratio(full.kept));
 }
 
 Eigen::MatrixXf on_full_skin(const tissue::FullSkin& full, const Eigen::MatrixXf& thinned) {

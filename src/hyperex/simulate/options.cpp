@@ -76,12 +76,15 @@ void check_tissue(const tissue::TissueParameters& uniform, std::vector<InputProb
   }
 }
 
-/// Which cut goes with which part.
+constexpr const char* kForcesMustDrive =
+    "drive.by = muscles or reactions, as driven points stay where they were recorded";
+
+/// What changes the face at rest, and which cut goes with which part.
 void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& problems) {
   if (!o.surgery.bones.empty() && o.drive.by == DriveBy::displacement)
-    problems.push_back(wrong("surgery.bone", "bones that move",
-                             "drive.by = muscles or reactions, as driven points stay where they "
-                             "were recorded"));
+    problems.push_back(wrong("surgery.bone", "bones that move", kForcesMustDrive));
+  if (!o.tissue.volume_ratio.empty() && o.drive.by == DriveBy::displacement)
+    problems.push_back(wrong("tissue.region", "volume that is added", kForcesMustDrive));
   for (std::size_t i = 0; i < o.surgery.bones.size(); ++i) {
     const BoneMove& move = o.surgery.bones[i];
     for (const auto& [name, of] : {std::pair{"move_m", &move.move_m}, {"turn_deg", &move.turn_deg}})

@@ -375,6 +375,9 @@ struct TissueValues {
   tissue::TissueParameters uniform = tissue::default_parameters;
   std::array<std::vector<double>, tissue::parameter_count> element{};  ///< of all or of none
 
+  /// Volume at rest over that of the mesh, per tetrahedron; empty: 1.
+  std::vector<double> volume_ratio = {};
+
   /// Of `tets` tetrahedra. Values are allowed ones (tissue::is_allowed): asserted.
   fem::Material material(std::size_t tets, fem::ViscousForm viscous_form) const;
   bool operator==(const TissueValues&) const = default;

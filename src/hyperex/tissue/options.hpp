@@ -78,6 +78,7 @@ struct TissueRegion {
   double width_m = 0.004;                                 ///< of a scar
   double blend_m = 0.004;  ///< width of the transition, half of it on either side of the border
   GivenParameters value{}, factor{};
+  double volume_m3 = 0;  ///< added there, as of filler or an implant; negative: taken away
   bool operator==(const TissueRegion&) const = default;
 
   static constexpr const char* about = "A change within a part of the skin.";
@@ -112,6 +113,11 @@ struct TissueRegion {
              {.bounds = {-1000, 1000}, .name = "poisson_factor"});
     v.option(HX_MEMBER(factor[density]), "Multiplies the density there.",
              {.bounds = factor_in, .name = "density_factor"});
+    v.option(HX_MEMBER(volume_m3),
+             "Volume that is added there, as of filler or an implant, or taken away, as of fat "
+             "(negative). The tissue grows alike through its thickness before the recorded forces "
+             "act (docs/surgery.md).",
+             {.unit = kMillilitres, .bounds = {-3e-5, 3e-5}});
   }
 };
 
@@ -160,7 +166,7 @@ struct TissueFieldOptions {
              {.key = "point"});
     v.option(HX_MEMBER(regions),
              "A change within a part of the face, applied after the points and in the order of the "
-             "file: values or factors in a named region or along a scar.",
+             "file: values, factors or added volume in a named or painted region or along a scar.",
              {.key = "region"});
   }
 };

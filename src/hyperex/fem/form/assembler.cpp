@@ -55,6 +55,22 @@ void Assembler::take_groups(const DilatationGroups& groups) {
   kept_ = groups.kept;
   groups_ = groups.tets;
   groups_of_ = transposed(groups_, static_cast<int>(element_count()));
+  measure_groups();
+
+  const Lists around = transposed(group_nodes_, static_cast<int>(node_count()));
+  wide_ = joined(around, group_nodes_);
+  member_start_ = around.start;
+  memberships_.reserve(around.item.size());
+  std::size_t slots = 0;
+  for (int n = 0; n < around.size(); ++n)
+    for (const int g : around[n]) {
+      memberships_.push_back({g, group_nodes_.start[g] + place_of(n, group_nodes_[g]), slots});
+      slots += group_nodes_[g].size();
+    }
+  group_slots_.resize(slots);
+}
+
+void Assembler::measure_groups() {
   group_volume_.assign(groups_.size(), 0);
   group_gradient_.assign(group_nodes_.item.size(), Vec3::Zero());
   for_each_index(groups_.size(), [&](Eigen::Index at) {
@@ -70,18 +86,6 @@ void Assembler::take_groups(const DilatationGroups& groups) {
     }
     for (std::size_t k = 0; k < nodes.size(); ++k) gradient[k] /= group_volume_[g];
   });
-
-  const Lists around = transposed(group_nodes_, static_cast<int>(node_count()));
-  wide_ = joined(around, group_nodes_);
-  member_start_ = around.start;
-  memberships_.reserve(around.item.size());
-  std::size_t slots = 0;
-  for (int n = 0; n < around.size(); ++n)
-    for (const int g : around[n]) {
-      memberships_.push_back({g, group_nodes_.start[g] + place_of(n, group_nodes_[g]), slots});
-      slots += group_nodes_[g].size();
-    }
-  group_slots_.resize(slots);
 }
 
 void Assembler::find_slots() {

@@ -21,9 +21,24 @@ class Assembler {
   Assembler(const Points& nodes, const Tetrahedra& tets, ElementKind kind);
   Assembler(const Points& nodes, const Tetrahedra& tets, const DilatationGroups& groups);
 
+  /// The same mesh of tissue that has grown: at rest, each tetrahedron is stretched by a growth
+  /// tensor G (symmetric, positive definite). Its deformation gradient from rest is F G^-1, its
+  /// volume V det G (E. K. Rodriguez, A. Hoger, A. D. McCulloch, J. Biomech. 27 (1994) 455). Of
+  /// finite strain (form/finite_strain.hpp); growth_force() is the same at small strain. Throws
+  /// InputError unless there is one such tensor per tetrahedron.
+  Assembler grown(const std::vector<Eigen::Matrix3d>& growth) const;
+
   Eigen::Index node_count() const { return tets_around_.size(); }
   Eigen::Index element_count() const { return static_cast<Eigen::Index>(shapes_.size()); }
+  /// Those at rest.
   const std::vector<Tet4>& shapes() const { return shapes_; }
+  bool has_grown() const {
+    return gradient_of_mesh_.size() > 1 || !gradient_of_mesh_[0].isIdentity(0);
+  }
+  /// The deformation gradient of the unmoved mesh, G^-1: the identity unless grown().
+  const Eigen::Matrix3d& gradient_of_mesh(Eigen::Index t) const {
+    return gradient_of_mesh_.size() == 1 ? gradient_of_mesh_[0] : gradient_of_mesh_[std::size_t(t)];
+  }
 
   // Data that other formulations on this mesh use (form/finite_strain.hpp).
   const Points& nodes() const { return nodes_; }
@@ -64,6 +79,11 @@ class Assembler {
   /// theta, the mean dilatation of the element's groups; for tet4, the trace of the strain.
   Eigen::VectorXd dilatation(const Points& d) const;
 
+  /// Forces (N, 3 |nodes|) with which tissue that grows pushes at small strain: K d = force where
+  /// the strain G - I of each tetrahedron is free of stress. Throws as grown().
+  Eigen::VectorXd growth_force(const Material& material,
+                               const std::vector<Eigen::Matrix3d>& growth) const;
+
   /// Elastic moduli of one element, Pa. The stress of a strain e is first tr(e) I + 2 shear e. This
   /// includes the part of the bulk modulus that the element keeps; the groups get the rest,
   /// `averaged`.
@@ -81,17 +101,23 @@ class Assembler {
 
  private:
   void take_groups(const DilatationGroups& groups);
+  void measure_groups();
   void find_slots();
   SparseMatrix pattern(const Lists& neighbours) const;
   Eigen::Matrix<double, 4, 3> corner_values(const Points& d, Eigen::Index t) const;
   Eigen::VectorXd own_dilatation(const Points& d) const;
   Eigen::VectorXd group_dilatation(const Points& d) const;
+  Eigen::VectorXd mean_in_groups(const Eigen::VectorXd& of_element) const;
   Eigen::VectorXd spread(const Eigen::VectorXd& of_group) const;
+  Eigen::VectorXd pressure_of(const Material& material, Eigen::VectorXd own_dilatation,
+                              Eigen::VectorXd group_dilatation) const;
   void fill_elements(int n, const Material& material, const std::vector<Moduli>& moduli,
                      System& system) const;
 
   Points nodes_;
   std::vector<Tet4> shapes_;
+  /// One per tetrahedron, or one of all.
+  std::vector<Eigen::Matrix3d> gradient_of_mesh_ = {Eigen::Matrix3d::Identity()};
   std::vector<std::array<int, 4>> corners_;
   Lists tets_around_;    // node -> tetrahedra
   Lists narrow_, wide_;  // node -> nodes of a common tetrahedron, of a common group

@@ -21,7 +21,7 @@ inline double metric_square(const Eigen::Matrix3d& a, const Eigen::Matrix3d& x,
 inline Eigen::Matrix3d FiniteStrain::gradient_at(const Eigen::VectorXd& d, Eigen::Index t) const {
   const auto& corner = mesh_.corners()[t];
   const auto& g = mesh_.shapes()[t].gradient;
-  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  Eigen::Matrix3d f = mesh_.gradient_of_mesh(t);
   for (int a = 0; a < 4; ++a) f += d.segment<3>(3 * corner[a]) * g.row(a);
   return f;
 }

@@ -19,9 +19,10 @@ struct RateRule {
 /// Energy, nodal forces and stiffness of a mesh at large displacements. The energy is
 ///   sum_e V_e (W(F_e) + barrier(J_e) + kappa'_e / 2 (J_e - 1)^2)
 ///     + sum_g V_g kappa_g / 2 (J_g - 1)^2,
-/// with F = I + grad u and J = det F. J_g is the mean volume ratio of a dilatation group; kappa'
-/// and kappa_g are as in form/dilatation_groups.hpp. At d = 0, the second derivatives are the
-/// stiffness of the linear formulation. Within a time step, the potentials of viscosity and of
+/// with F = I + grad u and J = det F; on a mesh that has grown (Assembler::grown), F and V_e are
+/// relative to the grown element at rest. J_g is the mean volume ratio of a dilatation group;
+/// kappa' and kappa_g are as in form/dilatation_groups.hpp. At d = 0, the second derivatives are
+/// the stiffness of the linear formulation. Within a time step, the potentials of viscosity and of
 /// Maxwell branches are added (begin_step()). The results do not depend on the number of threads.
 /// All memory is allocated at construction. Must not be used by several threads at once.
 class FiniteStrain {

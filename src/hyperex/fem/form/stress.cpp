@@ -34,6 +34,17 @@ Eigen::VectorXd Assembler::group_dilatation(const Points& d) const {
   return theta;
 }
 
+/// For each group, the mean over its elements, by their volumes.
+Eigen::VectorXd Assembler::mean_in_groups(const Eigen::VectorXd& of_element) const {
+  Eigen::VectorXd mean = Eigen::VectorXd::Zero(groups_.size());
+  for (int g = 0; g < groups_.size(); ++g) {
+    for (const int t : groups_[g])
+      mean[g] += shapes_[t].volume / static_cast<double>(groups_of_[t].size()) * of_element[t];
+    mean[g] /= group_volume_[g];
+  }
+  return mean;
+}
+
 /// For each element, the mean over its groups.
 Eigen::VectorXd Assembler::spread(const Eigen::VectorXd& of_group) const {
   Eigen::VectorXd of_element(element_count());
@@ -61,12 +72,16 @@ Eigen::VectorXd Assembler::dilatation(const Points& d) const {
 Eigen::VectorXd Assembler::pressure_pa(const Material& material, const Points& d) const {
   check_rows("the displacement", d.rows(), node_count());
   check_material(material, element_count());
+  return pressure_of(material, own_dilatation(d), group_dilatation(d));
+}
+
+/// `own`: dilatation per element; `of_group`: its mean in each group.
+Eigen::VectorXd Assembler::pressure_of(const Material& material, Eigen::VectorXd own,
+                                       Eigen::VectorXd of_group) const {
   const std::vector<Moduli> of_element = moduli(material);
-  Eigen::VectorXd pressure = own_dilatation(d);
-  for (Eigen::Index t = 0; t < pressure.size(); ++t)
-    pressure[t] *= -(of_element[t].first + 2 * of_element[t].shear / 3);
+  Eigen::VectorXd pressure = std::move(own);
+  for (Eigen::Index t = 0; t < pressure.size(); ++t) pressure[t] *= -of_element[t].kept();
   if (groups_.size() == 0) return pressure;
-  Eigen::VectorXd of_group = group_dilatation(d);
   const std::vector<double> stiffness = group_stiffness(of_element);
   for (int g = 0; g < groups_.size(); ++g)
     of_group[g] = group_volume_[g] > 0 ? stiffness[g] / group_volume_[g] * of_group[g] : 0;

@@ -38,7 +38,8 @@ FiniteNewton::Impl::Impl(FiniteStrain& f, std::vector<int> prescribed, const Fin
     *v = VectorXd::Zero(n);
   form.rest_at(state.d);
   mass_share = options.inertia ? 1 / (kNominalStep_s * kNominalStep_s) : 0;
-  fill_matrix(state.d, false);
+  // The mesh of grown tissue is under stress, where the exact matrix may be indefinite.
+  fill_matrix(state.d, form.mesh().has_grown());
   factor.emplace(matrix, std::move(prescribed), "time integration at finite strain",
                  std::move(order));
   const auto count = static_cast<Eigen::Index>(factor->prescribed().size());

@@ -240,14 +240,16 @@ Boundary Boundary::with_moved_bones(const io::Landmarks& landmarks, const Osteot
   const auto cranium = [&](const Vec3& at) { return by(cuts.cranium(), at); };
   for (Fixed& f : out.fixed_) {
     const Vec3 at = rest.row(f.node);
-    f.base = f.bone == Bone::none ? cranium(at) : by(cuts.motion(f.bone, at), at);
+    f.base = cranium(at);
+    if (f.bone == Bone::skull) f.base = cuts.displacement_of_skull(at);
+    if (f.bone == Bone::mandible) f.base = by(cuts.motion(f.bone, at), at);
   }
   for (Spring& s : out.springs_) {
     const Vec3 at = rest.row(s.node);
     Vec3 of_jaw = Vec3::Zero();  // of the place that follows the jaw
     switch (s.holder) {
       case Holder::skull:
-        s.base = by(cuts.motion(Bone::skull, at), at);
+        s.base = cuts.displacement_of_skull(at);
         break;
       case Holder::mandible:
         s.base = of_jaw = by(cuts.motion(Bone::mandible, at), at);

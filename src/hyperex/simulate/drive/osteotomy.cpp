@@ -76,6 +76,10 @@ Osteotomies::Osteotomies(const std::vector<BoneMove>& moves, const io::Landmarks
                          const anatomy::Bones* bones)
     : frame_(face::face_frame(landmarks)) {
   const Vec3 condyles = JawHinge(landmarks, bones).centre;
+  clamped_at_ = (landmarks.at(ibug(28)) + landmarks.at(ibug(29))) / 2;
+  const Vec3 left = frame_.local(landmarks.at(ibug(35))),
+             right = frame_.local(landmarks.at(ibug(31)));
+  half_nose_m_ = std::abs(left.x() - right.x()) / 2;
   for (const BoneMove& move : moves) {
     const BoneSegment segment = segment_of(move, landmarks, frame_, condyles);
     moves_.push_back({segment, motion_of(move, frame_, segment.turns_about)});
@@ -101,6 +105,22 @@ Eigen::Isometry3d Osteotomies::product(const Holds& holds) const {
 
 Eigen::Isometry3d Osteotomies::motion(Bone bone, const Vec3& at) const {
   return product([&](const BoneSegment& segment) { return holds(segment, bone, at); });
+}
+
+Vec3 Osteotomies::displacement_of_skull(const Vec3& at) const {
+  const Vec3 by = motion(Bone::skull, at) * at - at;
+  const auto cut = std::find_if(moves_.begin(), moves_.end(), [](const Move& move) {
+    return move.segment.part == BonePart::maxilla;
+  });
+  if (cut == moves_.end()) return by;
+  const double height = frame_.y.dot(at - cut->segment.plane_at),
+               clamped = frame_.y.dot(clamped_at_ - cut->segment.plane_at),
+               aside = frame_.local(at).x() / half_nose_m_;
+  if (height <= 0 || height >= clamped || std::abs(aside) >= 1) return by;
+  const double s = 1 - height / clamped;
+  const double share = (3 * s * s - s * s * s) / 2 * (1 - std::abs(aside));
+  const Vec3 of_maxilla = upper_teeth() * at - at - by, &across = cut->segment.plane_normal;
+  return by + share * (of_maxilla - of_maxilla.dot(across) * across);
 }
 
 Eigen::Isometry3d Osteotomies::cranium() const {

@@ -51,6 +51,13 @@ class Osteotomies {
   /// The motion (now from rest) of a place on a bone: of all moves that hold it, in turn.
   /// `bone`: skull or mandible.
   Eigen::Isometry3d motion(Bone bone, const Vec3& at) const;
+  /// The displacement of a place on the skull or, above the maxilla, on the cartilage of the nose.
+  /// The septum stands on the maxilla and ends at the nasal bones. It bends as a beam that is
+  /// clamped there, at the middle of the bridge (ibug68_28 and 29), and moved by the maxilla at the
+  /// plane of the cut: (3 s^2 - s^3) / 2 of that motion along the plane, s the share of the way.
+  /// Across the plane it does not follow, as surgeons shorten it by as much. Aside it moves less,
+  /// linearly, down to nothing at the wings of the nose (ibug68_31 and 35).
+  Vec3 displacement_of_skull(const Vec3& at) const;
   /// The motion of the skull above all cuts, of the upper teeth, and of the lower ones.
   Eigen::Isometry3d cranium() const;
   Eigen::Isometry3d upper_teeth() const;
@@ -67,6 +74,8 @@ class Osteotomies {
 
   face::FaceFrame frame_;
   std::vector<Move> moves_;
+  Vec3 clamped_at_;         ///< the lower end of the nasal bones
+  double half_nose_m_ = 0;  ///< half the distance of the wings of the nose
 };
 
 /// Displacements between bones: those of the bones about a place, weighted by the squares of their

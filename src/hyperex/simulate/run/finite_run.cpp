@@ -136,7 +136,10 @@ void begin(fem::FiniteNewton& newton, const FiniteDrive& drive, FiniteSolution& 
   if (drive.rest_force.size() > 0) {
     HX_ASSERT(!drive.places);
     out.factorisations +=
-        newton.equilibrium(drive.rest_prescribed, drive.rest_force).factorisations;
+        newton
+            .equilibrium(drive.rest_prescribed, drive.rest_force, {},
+                         drive.rest_guess.size() > 0 ? &drive.rest_guess : nullptr)
+            .factorisations;
     out.solution.neutral = newton.displacement();
   }
 }

@@ -20,6 +20,7 @@ struct FiniteDrive {
   /// The face at rest: constant prescribed displacements (m, as `still`) and forces (N, all
   /// unknowns). The run begins in static equilibrium under them. Empty: none.
   Eigen::VectorXd rest_prescribed, rest_force;
+  Eigen::VectorXd rest_guess;  ///< of that equilibrium, m; empty: none
   /// Displacements (m) of further prescribed nodes; null: none.
   const NodalCourse* places = nullptr;
 };

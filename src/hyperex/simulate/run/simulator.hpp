@@ -113,6 +113,7 @@ struct EliminationOrder {
 ///   moved bones               boundary, surgery
 ///   matrix values             boundary, drive.by, tissue, model, muscles (not their gains)
 ///   pattern                   model.element
+///   added volume              pattern, matrix values
 ///   prescribed unknowns       boundary
 ///   order                     pattern, prescribed unknowns
 ///   muscle model              pattern, order, drive.by, support, tissue, model, muscles (not their
@@ -143,8 +144,8 @@ struct EliminationOrder {
 ///   compliance in contact     readout, measured region, driven points, pattern, order, matrix
 ///                             values, contact, obstacle places, places that come near
 ///   stream                    pattern, order, prescribed unknowns; refilled after matrix values
-///   frames                    reduced motion, full model, input, moved bones, compliance in
-///                             contact, solver, contact, time
+///   frames                    reduced motion, full model, input, moved bones, added volume,
+///                             compliance in contact, solver, contact, time
 ///
 /// A refilled stage keeps its memory and its analysis, and only its numbers are computed anew. What
 /// is "unless held" no longer changes the load after hold_load(). Thus a run after set_tissue()

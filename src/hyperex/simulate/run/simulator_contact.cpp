@@ -68,7 +68,7 @@ double Simulator::Impl::correct_finite(const ContactFrames& frames,
   fem::FiniteNewtonOptions how;
   how.tolerance = options.solver.finite_tolerance;
   how.most_halvings = kMostHalvings;
-  FiniteCorrection tissue(stages.pattern.value(), material(), options.model.law, std::move(springs),
+  FiniteCorrection tissue(grown_pattern(), material(), options.model.law, std::move(springs),
                           std::move(prescribed), how, by_forces() ? known_order() : nullptr);
   FiniteContact contact(stages.contact_model->contact, tissue, frames,
                         [&](std::size_t i, const Points& nodes) {

@@ -56,6 +56,11 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
   if (const MovedBones& moved = stages.moved_bones.value(); moved.any && !places) {
     drive.rest_prescribed = moved.prescribed;
     drive.rest_force = moved.force;
+  } else if (changes_rest() && !places) {
+    // Grown tissue is not at rest where the mesh is: the run begins in its equilibrium.
+    drive.rest_prescribed =
+        Eigen::VectorXd::Zero(Eigen::Index(stages.boundary->prescribed().size()));
+    drive.rest_force = Eigen::VectorXd::Zero(3 * mesh->volume.nodes.rows());
   }
   const HeldLoad load = places ? stages.load.value() : on_moved_bones(stages.load.value());
   std::vector<char> turning = turning_columns(load, muscles.table());
@@ -75,8 +80,11 @@ FiniteSolution Simulator::Impl::run_at_finite_strain(const MuscleOptions& muscle
   const std::vector<double> times_s = finite_times_s();
   NodalCourse places;
   if (hold_patches) places = patch_places(times_s);
-  const FiniteDrive drive = finite_drive(muscles, hold_patches ? &places : nullptr);
-  fem::FiniteStrain form(assembler, material(), options.model.law);
+  FiniteDrive drive = finite_drive(muscles, hold_patches ? &places : nullptr);
+  // The motion as recorded was that of the face before anything was added.
+  const bool grows = !hold_patches && !options.tissue.volume_ratio.empty();
+  if (grows) drive.rest_guess = neutral_at_small_strain();
+  fem::FiniteStrain form(grows ? grown_pattern() : assembler, material(), options.model.law);
   fem::SparseMatrix springs = assembler.stiffness_pattern();
   boundary.add_springs(springs);
   springs.prune(0.0);
@@ -115,7 +123,7 @@ Solution Simulator::Impl::solve_finite(const std::vector<double>& times) {
   HeldLoad whole = stages.load.value();
   whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));
   stages.load.complete(std::make_shared<const HeldLoad>(std::move(whole)));
-  if (options.muscles == as_recorded(options.muscles) && !stages.moved_bones->any)
+  if (options.muscles == as_recorded(options.muscles) && !changes_rest())
     return std::move(recorded.solution);
   return std::move(run_at_finite_strain(options.muscles, false, times).solution);
 }

@@ -63,6 +63,13 @@ struct Simulator::Impl {
   void ensure_boundary();
   /// Where segments of bone go (options.surgery).
   void ensure_moved_bones();
+  /// Forces of tissue that grows.
+  void ensure_added_volume();
+  /// The pattern of the tissue with what was added to it, at finite strain.
+  const fem::Assembler& grown_pattern();
+  /// Whether the face at rest is another than the one recorded. The stage of moved bones must be
+  /// there.
+  bool changes_rest() const;
   void ensure_pattern();
   void ensure_factor();
   void ensure_full_model();

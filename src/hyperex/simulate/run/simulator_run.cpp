@@ -164,7 +164,7 @@ SimulationResult Simulator::Impl::run() {
 
 void Simulator::Impl::place_neutral(bool finite, const PointCurve& points, Solution& solution,
                                     Performance& performance) {
-  if (!stages.moved_bones->any) return;
+  if (!changes_rest()) return;
   if (!finite) {
     solution.neutral = neutral_at_small_strain();
     solution.displacement.colwise() += solution.neutral;

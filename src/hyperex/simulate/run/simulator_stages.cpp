@@ -8,6 +8,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
+#include "hyperex/simulate/load/added_volume.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
@@ -85,6 +86,29 @@ void Simulator::Impl::ensure_moved_bones() {
   });
 }
 
+void Simulator::Impl::ensure_added_volume() {
+  stages.added_volume.ensure([&] {
+    AddedVolume out;
+    out.any = !options.tissue.volume_ratio.empty();
+    if (out.any) {
+      const auto growth = growth_through_layer(mesh->volume, options.tissue.volume_ratio);
+      out.force = stages.pattern->growth_force(material(), growth);
+      if (options.model.strain == Strain::finite)
+        out.grown = std::make_shared<const fem::Assembler>(stages.pattern->grown(growth));
+    }
+    return std::make_shared<const AddedVolume>(std::move(out));
+  });
+}
+
+const fem::Assembler& Simulator::Impl::grown_pattern() {
+  ensure_added_volume();
+  return stages.added_volume->grown ? *stages.added_volume->grown : stages.pattern.value();
+}
+
+bool Simulator::Impl::changes_rest() const {
+  return stages.moved_bones->any || !options.tissue.volume_ratio.empty();
+}
+
 HeldLoad Simulator::Impl::on_moved_bones(HeldLoad load) const {
   if (options.drive.by == DriveBy::muscles && stages.moved_bones->any)
     load.force.middleCols<12>(jaw_row(load)) += stages.moved_bones->jaw_force_change;
@@ -92,12 +116,18 @@ HeldLoad Simulator::Impl::on_moved_bones(HeldLoad load) const {
 }
 
 Eigen::VectorXd Simulator::Impl::neutral_at_small_strain() {
-  const MovedBones& moved = stages.moved_bones.value();
-  if (!moved.any) return {};
+  if (!changes_rest()) return {};
   ensure_factor();
+  ensure_added_volume();
+  const MovedBones& moved = stages.moved_bones.value();
   fem::Drive once;
   once.prescribed = moved.prescribed;
   once.force = moved.force;
+  if (!moved.any) {
+    once.prescribed = Eigen::VectorXd::Zero(Eigen::Index(stages.boundary->prescribed().size()));
+    once.force = Eigen::VectorXd::Zero(3 * mesh->volume.nodes.rows());
+  }
+  if (stages.added_volume->any) once.force += stages.added_volume->force;
   once.s = Eigen::MatrixXd::Ones(1, 1);
   once.rate = once.second = Eigen::MatrixXd::Zero(1, 1);
   return stages.factor->model.at_rest(once, {0});

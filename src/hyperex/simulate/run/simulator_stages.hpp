@@ -41,6 +41,14 @@ struct ReducedFactor {
   std::shared_ptr<const MatrixValues> of;  ///< null: a refill failed
 };
 
+/// What added volume (TissueValues::volume_ratio) does to the face at rest.
+struct AddedVolume {
+  bool any = false;
+  Eigen::VectorXd force;  ///< N, all unknowns, at small strain
+  /// The grown tissue, where the strain is finite; else null.
+  std::shared_ptr<const fem::Assembler> grown;
+};
+
 /// The support with segments of bone moved by surgery, and what it does to the face at rest.
 struct MovedBones {
   bool any = false;
@@ -147,6 +155,7 @@ struct SimulatorStages : StageGraph {
   Cached<MovedBones> moved_bones{*this, "moved bones", {boundary, surgery}};
   Cached<MatrixValues> values{*this, "matrix values", {boundary, drive_by, tissue, model, muscles}};
   Cached<fem::Assembler> pattern{*this, "pattern", {element}};
+  Cached<AddedVolume> added_volume{*this, "added volume", {pattern, values}};
   Checked<std::vector<int>> prescribed{*this, "prescribed unknowns", {boundary}};
   Cached<EliminationOrder> order{*this, "order", {pattern, prescribed}};
   Cached<MuscleModel> muscle_model{
@@ -194,7 +203,9 @@ struct SimulatorStages : StageGraph {
       {readout, measured, points, pattern, order, values, contact, places, near}};
   Owned<Stream> stream{*this, "stream", {pattern, order, prescribed, refill(values)}};
   Uncached frames{
-      *this, "frames", {response, full, input, moved_bones, contact_model, solver, contact, time}};
+      *this,
+      "frames",
+      {response, full, input, moved_bones, added_volume, contact_model, solver, contact, time}};
 
   /// Drops the stages that depend on options that differ.
   void options_changed(const SimulationOptions& before, const SimulationOptions& now);

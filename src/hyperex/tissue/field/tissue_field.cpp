@@ -22,6 +22,9 @@ namespace hyperex::tissue {
 namespace {
 using SkinField = std::array<Eigen::VectorXd, parameter_count>;
 
+/// How much tissue may grow or shrink.
+constexpr double kLeastVolumeRatio = 0.5, kMostVolumeRatio = 2;
+
 /// As upper_lip_margin: far on the landmark's own lip, 0 for those of neither.
 double margin_of(const std::string& landmark) {
   if (landmark == "labiale_superius" || landmark.starts_with("crista_philtri")) return 1;
@@ -44,6 +47,12 @@ std::vector<PlaceOnMesh> places_above(const TissueMesh& mesh, const SideTree& tr
     places[t] = tree.query(at, margin);
   }
   return places;
+}
+
+double volume_of(const VolumeMesh& mesh, Eigen::Index t) {
+  const Vec3 a = mesh.nodes.row(mesh.tets(t, 0));
+  const auto edge = [&](int k) -> Vec3 { return mesh.nodes.row(mesh.tets(t, k)).transpose() - a; };
+  return edge(1).cross(edge(2)).dot(edge(3)) / 6;
 }
 
 std::string key_of(const ResolvedPoint& point) {
@@ -80,8 +89,10 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
   const int kinds = int(!region.name.empty()) + int(!region.scar.empty()) +
                     int(!region.scar_points_m.empty()) + int(!region.painted.empty());
   if (kinds != 1) complain("", "one of name, scar, scar_points_mm and painted");
-  if (!any(region.value) && !any(region.factor))
-    complain("", "a value or a factor, as young_kpa = 300 or young_factor = 5");
+  if (!any(region.value) && !any(region.factor) && region.volume_m3 == 0)
+    complain("",
+             "a value, a factor or a volume, as young_kpa = 300, young_factor = 5 or "
+             "volume_ml = 2");
   for (int p = 0; p < parameter_count; ++p)
     if (region.value[p] && region.factor[p])
       complain("", fmt::format("either {} or its factor", parameter_info(p).key));
@@ -107,6 +118,11 @@ void check_region(const TissueFieldOptions& options, std::size_t index,
 }
 
 }  // namespace
+
+bool adds_volume(const TissueFieldOptions& options) {
+  return std::any_of(options.regions.begin(), options.regions.end(),
+                     [](const TissueRegion& region) { return region.volume_m3 != 0; });
+}
 
 bool needs_registration(const TissueFieldOptions& options) {
   return std::any_of(options.regions.begin(), options.regions.end(),
@@ -158,6 +174,7 @@ TissueField TissueFieldMaker::make(const TissueFieldOptions& options) const {
     for (std::size_t t = 0; t < above_.size(); ++t)
       field.element[p][t] = above_[t].value(field.skin[p]);
   }
+  if (adds_volume(options)) add_volumes(options, field);
   return field;
 }
 
@@ -307,6 +324,33 @@ void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size
                                       parameter_info(p).allowed, u / parameter_info(p).si)});
       }
     }
+  }
+}
+
+void TissueFieldMaker::add_volumes(const TissueFieldOptions& options, TissueField& field) const {
+  field.skin_volume_ratio = Eigen::VectorXd::Ones(mesh_.skin.points.rows());
+  field.volume_ratio.assign(above_.size(), 1);
+  const VolumeMesh& volume = mesh_.volume;
+  for (std::size_t i = 0; i < options.regions.size(); ++i) {
+    const double volume_m3 = options.regions[i].volume_m3;
+    if (volume_m3 == 0) continue;
+    const Eigen::VectorXd shares = region_shares(options, i);
+    double held = 0;
+    for (std::size_t t = 0; t < above_.size(); ++t)
+      held += above_[t].value(shares) * volume_of(volume, Eigen::Index(t));
+    const double growth = volume_m3 / held;
+    field.skin_volume_ratio += growth * shares;
+    for (std::size_t t = 0; t < above_.size(); ++t)
+      field.volume_ratio[t] += growth * above_[t].value(shares);
+    const auto [least, most] = std::ranges::minmax(field.volume_ratio);
+    if (least < kLeastVolumeRatio || most > kMostVolumeRatio)
+      throw FieldError(
+          {fmt::format("region[{}].volume_ml", i),
+           fmt::format("{:.2g} to {:.2g} for the {:.3g} ml of tissue of this region, so that no "
+                       "part of it takes less than {:g} or more than {:g} times its volume",
+                       1e6 * held * (kLeastVolumeRatio - 1), 1e6 * held * (kMostVolumeRatio - 1),
+                       1e6 * held, kLeastVolumeRatio, kMostVolumeRatio),
+           fmt::format("{:g}", 1e6 * volume_m3)});
   }
 }
 

@@ -27,6 +27,10 @@ bool is_graded(const TissueFieldOptions& options);
 struct TissueField {
   std::array<Eigen::VectorXd, parameter_count> skin;
   std::array<std::vector<double>, parameter_count> element;
+  /// The volume at rest over that of the mesh, per vertex of the skin and per tetrahedron.
+  /// Empty: 1.
+  Eigen::VectorXd skin_volume_ratio;
+  std::vector<double> volume_ratio;
 
   bool varies(int parameter) const {
     return skin[parameter].size() > 0 &&
@@ -55,7 +59,10 @@ std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMes
 ///   3. The file per vertex replaces it where it has values.
 ///   4. Regions in turn: u <- u (1 + w (factor - 1)), or u <- u + w (value - u), w the region's
 ///      share at the vertex.
-///   5. A tetrahedron takes the field at the point of the skin above its centroid: constant through
+///   5. The volume that a region adds is shared out by w: a tetrahedron's volume grows by the
+///   factor
+///      1 + volume w / (sum over all of w V), V its volume.
+///   6. A tetrahedron takes the field at the point of the skin above its centroid: constant through
 ///      the thickness.
 class TissueFieldMaker {
  public:
@@ -76,6 +83,7 @@ class TissueFieldMaker {
                    std::array<Eigen::VectorXd, parameter_count>& field) const;
   void apply_region(const TissueFieldOptions& options, std::size_t index,
                     std::array<Eigen::VectorXd, parameter_count>& field) const;
+  void add_volumes(const TissueFieldOptions& options, TissueField& field) const;
   Eigen::VectorXd region_depth(const TissueFieldOptions& options, std::size_t index) const;
 
   const TissueMesh& mesh_;
@@ -85,6 +93,9 @@ class TissueFieldMaker {
   std::optional<RegionMap> regions_;
   std::vector<PlaceOnMesh> above_;  ///< of each tetrahedron's centroid
 };
+
+/// Whether a region adds volume or takes it away.
+bool adds_volume(const TissueFieldOptions& options);
 
 /// Whether the options name a region of the face.
 bool needs_registration(const TissueFieldOptions& options);
