@@ -72,6 +72,31 @@ TEST_F(Surgery, OfBaseIsNotThatOfItsVariants) {
   }
 }
 
+TEST_F(Surgery, AddsVolumeUnderAPlaceOfTheSkin) {
+  write("tissue.region = [{ name = \"cheek_L\", volume_ml = 2 }]");
+  const Outcome outcome = call("run scene.toml --out out");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out, testing::ContainsRegex(
+                               "advancement, at rest: 2 ml added, of which [0-9.]+ ml show at "
+                               "the skin; it moves by up to [0-9.]+ mm"));
+  EXPECT_TRUE(std::filesystem::exists(in("out/variants/advancement/surgery.png")));
+  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
+  const auto& surgery = summary["variants"]["table"][1]["surgery"];
+  EXPECT_EQ(surgery["added_volume_ml"], 2);
+  EXPECT_GT(surgery["skin_volume_change_ml"], 1.4);
+  EXPECT_LT(surgery["skin_volume_change_ml"], 2.3);
+  EXPECT_GT(surgery["greatest_at_rest_mm"], 0.3);
+  EXPECT_LT(surgery["greatest_at_rest_mm"], 3);
+  for (const auto& one : surgery["landmarks"]) EXPECT_FALSE(one.contains("published"));
+
+  write("tissue.region = [{ name = \"cheek_L\", volume_ml = 25 }]");
+  const Outcome refused = call("run scene.toml --out none");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, testing::AllOf(testing::HasSubstr("region[0].volume_ml"),
+                                          testing::HasSubstr("times its volume")));
+  EXPECT_FALSE(std::filesystem::exists(in("none")));
+}
+
 TEST_F(Surgery, IsRefusedInOneSentence) {
   const auto refused = [&](const std::string& variant, const std::string& more = "") {
     write(variant, more);

@@ -88,6 +88,20 @@ class TissueFields(unittest.TestCase):
         self.assertEqual(hyperex.tissue_field(coarse_mesh(), face(), options).young_pa.tolist(),
                          scene.options.tissue.young_pa.tolist())
 
+    def test_added_volume(self):
+        options = hyperex.TissueFieldOptions(regions=[
+            hyperex.TissueRegion(name="cheek_R", volume_m3=2e-6)])
+        tissue = hyperex.tissue_field(coarse_mesh(), face(), options)
+        self.assertGreater(tissue.volume_ratio.max(), 1.05)
+        self.assertEqual(tissue.volume_ratio.min(), 1)
+        self.assertIsNone(hyperex.Tissue().volume_ratio)
+        tissue.volume_ratio = [1, 2]
+        with self.assertRaisesRegex(hyperex.InputError, "tissue.volume_ratio"):
+            small_simulator().set_tissue(tissue)
+        tissue.volume_ratio = None
+        self.assertIsNone(tissue.volume_ratio)
+
+
     def test_refused(self):
         options = hyperex.TissueFieldOptions(regions=[
             hyperex.TissueRegion(name="elbow", young_factor=5)])

@@ -45,6 +45,17 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
   auto completed = completed_landmarks(given, scan, source, scene.kept);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
+  const auto in_midline = [](const auto& landmark) {
+    return anatomy::mirrored_landmark(landmark.first) == landmark.first;
+  };
+  if (!given.empty() && std::ranges::all_of(given, in_midline))
+    in.notes.push_back(make_warning(
+        "landmarks.midline_alone",
+        fmt::format("the {} landmarks given lie all in the midline, which places those of either "
+                    "side badly; expected some of either side, as corners of eyes and mouth, or no "
+                    "landmarks: they are then found on the scan",
+                    given.size()),
+        "scan.landmarks"));
   if (!in.placed.empty())
     in.notes.push_back(make_note(
         "landmarks.placed",

@@ -106,5 +106,20 @@ TEST_F(SoftTissueMoves, AreWrittenAsATable) {
   EXPECT_THAT(json.dump(), testing::HasSubstr("Gupta and Schendel"));
 }
 
+TEST(ChangeOfVolume, IsThatBetweenTheSkins) {
+  simulate::Performance before, after;
+  // A closed surface, of which every place moves outwards by a tenth of its distance: 1.1^3 times.
+  TriMesh& skin = before.skin_rest;
+  skin.points = Points{{0, 0, 0}, {0.02, 0, 0}, {0, 0.03, 0}, {0, 0, 0.04}};
+  skin.triangles = Triangles{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  after.skin_rest = skin;
+  after.neutral_displacement_m = (0.1 * skin.points).cast<float>();
+  const double volume_ml = 1e6 * 0.02 * 0.03 * 0.04 / 6;
+  EXPECT_NEAR(change_of_volume_ml(before, after), (std::pow(1.1, 3) - 1) * volume_ml, 1e-6);
+  EXPECT_NEAR(change_of_volume_ml(after, before), (1 - std::pow(1.1, 3)) * volume_ml, 1e-6);
+  EXPECT_NEAR(greatest_change_at_rest_mm(before, after), 4, 1e-5);
+  EXPECT_EQ(change_of_volume_ml(before, before), 0);
+}
+
 }  // namespace
 }  // namespace hyperex::metrics

@@ -48,7 +48,7 @@ TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
 /// "patch_radius_mm" and "patch_radius_m" without their units.
 std::string without_unit(std::string name) {
   for (const char* ending : {"_kpa_per_mm", "_pa_per_m", "_pa_s", "_kg_m3", "_kpa", "_pa", "_mm",
-                             "_hz", "_mb", "_gb", "_deg", "_m", "_s"})
+                             "_hz", "_mb", "_gb", "_deg", "_ml", "_m3", "_m", "_s"})
     if (name.ends_with(ending)) return name.substr(0, name.size() - std::string(ending).size());
   return name;
 }

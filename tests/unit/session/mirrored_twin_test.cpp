@@ -7,8 +7,11 @@
 
 #include <filesystem>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/run/run_scene.hpp"
+#include "hyperex/tissue/field/tissue_field.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {
@@ -107,6 +110,38 @@ TEST(MirroredMotion, NeedsCounterparts) {
   std::string why;
   EXPECT_FALSE(mirrored_motion(two_points({"ibug68_54", "ibug68_51"}), plane, {"ibug68_54"}, why));
   EXPECT_NE(why.find("ibug68_54"), std::string::npos);
+}
+
+TEST(MirroredValues, TakeTheOtherSidesStiffnessAndVolume) {
+  const anatomy::EmbeddedFace embedded = anatomy::embedded_face();
+  tissue::TissueMeshOptions coarse;
+  coarse.element_size_m = 0.007;
+  const tissue::TissueMesh mesh =
+      tissue::build_tissue_mesh(embedded.mesh, embedded.landmarks, coarse, "embedded");
+  const anatomy::RegisteredFace face =
+      anatomy::register_canonical_face(embedded.landmarks, embedded.mesh);
+  const tissue::TissueFieldMaker maker(mesh, embedded.landmarks, &face);
+  const auto field_of = [&](const char* name) {
+    tissue::TissueFieldOptions options;
+    options.regions = {{.name = name, .factor = {3.0}, .volume_m3 = 2e-6}};
+    return maker.make(options);
+  };
+  const metrics::MidsagittalPlane plane = metrics::landmark_plane(embedded.landmarks);
+  const tissue::TissueField left = field_of("cheek_L"), right = field_of("cheek_R");
+  simulate::TissueValues mirrored;
+  take_mirrored(left, mesh, plane, mirrored);
+  const auto distance = [](const std::vector<double>& a, const std::vector<double>& b) {
+    const Eigen::Map<const Eigen::VectorXd> x(a.data(), Eigen::Index(a.size())),
+        y(b.data(), Eigen::Index(b.size()));
+    return (x - y).norm();
+  };
+  ASSERT_EQ(mirrored.volume_ratio.size(), right.volume_ratio.size());
+  EXPECT_LT(distance(mirrored.volume_ratio, right.volume_ratio),
+            0.2 * distance(left.volume_ratio, right.volume_ratio));
+  EXPECT_LT(distance(mirrored.element[tissue::young], right.element[tissue::young]),
+            0.2 * distance(left.element[tissue::young], right.element[tissue::young]));
+  take_mirrored(maker.make({}), mesh, plane, mirrored);
+  EXPECT_TRUE(mirrored.volume_ratio.empty());
 }
 
 }  // namespace

@@ -7,7 +7,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/fem/element/tet4.hpp"
+#include "hyperex/metrics/soft_tissue_moves.hpp"
 #include "hyperex/simulate/drive/osteotomy.hpp"
+#include "hyperex/simulate/load/added_volume.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
 #include "support/refusal.hpp"
@@ -208,6 +211,117 @@ TEST_F(Surgery, IsRefusedWhereDrivenPointsWouldStayBehindOrACutBelongsToAnotherB
   EXPECT_THAT(refused(), testing::HasSubstr("for the chin"));
   options_.surgery.bones[0].part = BonePart::mandible;
   EXPECT_NO_THROW(check(options_));
+}
+
+TEST_F(Surgery, TheCartilageOfTheNoseBendsWithTheMaxilla) {
+  const Osteotomies cuts({move_of(BonePart::maxilla, {0.001, 0.003, 0.005})}, face_.landmarks);
+  const auto local_at = [&](int k) { return frame_.local(face_.landmarks.at(ibug(k))); };
+  const double cut = local_at(33).y() + 0.006, bone = (local_at(28).y() + local_at(29).y()) / 2,
+               wings = std::abs(local_at(35).x() - local_at(31).x()) / 2;
+  const auto moved = [&](double x, double height) {
+    const Vec3 at = frame_.world({x, height, local_at(30).z()});
+    return local(cuts.displacement_of_skull(at).transpose());
+  };
+  EXPECT_LT((moved(0, cut - 1e-6) - Vec3(0.001, 0.003, 0.005)).norm(), 1e-9) << "on the maxilla";
+  EXPECT_LT((moved(0, cut + 1e-6) - Vec3(0.001, 0, 0.005)).norm(), 1e-5) << "the septum is cut";
+  EXPECT_LT(moved(0, bone - 1e-6).norm(), 1e-9) << "clamped at the nasal bones";
+  EXPECT_EQ(moved(0, bone + 0.001).norm(), 0);
+  // A cantilever at its half: 5 / 16 of the end's deflection.
+  EXPECT_LT((moved(0, (cut + bone) / 2) - 5.0 / 16 * Vec3(0.001, 0, 0.005)).norm(), 1e-9);
+  EXPECT_LT((moved(wings / 2, (cut + bone) / 2) - 5.0 / 32 * Vec3(0.001, 0, 0.005)).norm(), 1e-9);
+  EXPECT_EQ(moved(1.01 * wings, (cut + bone) / 2).norm(), 0);
+}
+
+TEST_F(Surgery, TheTipOfTheNoseFollowsTheMaxillaALittle) {
+  const Points moved = neutral({move_of(BonePart::maxilla, {0, 0, 0.005})});
+  EXPECT_GT(shift(moved, ibug(30)).z(), 0.5);
+  EXPECT_LT(shift(moved, ibug(30)).z(), 0.6 * shift(moved, ibug(33)).z());
+}
+
+class AddedVolume : public Surgery {
+ protected:
+  AddedVolume() {
+    // 0.3 times more about the chin, for one tetrahedron in full and for its neighbours in part.
+    const Vec3 chin = face_.landmarks.at(ibug(8));
+    const tissue::VolumeMesh& volume = mesh_->volume;
+    for (Eigen::Index t = 0; t < volume.tets.rows(); ++t) {
+      Vec3 at = Vec3::Zero();
+      for (int k = 0; k < 4; ++k) at += volume.nodes.row(volume.tets(t, k)).transpose() / 4;
+      const double share = std::exp(-(at - chin).squaredNorm() / (2 * 0.015 * 0.015));
+      ratio_.push_back(1 + 0.3 * share);
+      added_ml_ +=
+          1e6 * 0.3 * share * fem::make_tet4(fem::corners_of(volume.nodes, volume.tets, t)).volume;
+    }
+  }
+  SimulationResult with_volume(const std::vector<BoneMove>& bones = {}) const {
+    SimulationOptions options = options_;
+    options.tissue.volume_ratio = ratio_;
+    options.surgery.bones = bones;
+    return Simulator(mesh_, face_.landmarks, motion_, options).run();
+  }
+  std::vector<double> ratio_;
+  double added_ml_ = 0;
+};
+
+TEST_F(AddedVolume, ShowsAtTheSkin) {
+  const Performance before = made({}).run().performance, after = with_volume().performance;
+  ASSERT_EQ(after.neutral_displacement_m.rows(), mesh_->skin.points.rows());
+  const double shown = metrics::change_of_volume_ml(before, after);
+  EXPECT_GT(shown, 0.75 * added_ml_);
+  EXPECT_LT(shown, 1.25 * added_ml_);
+  const Points rest = after.neutral_displacement_m.cast<double>();
+  EXPECT_GT(shift(rest, ibug(8)).z(), 0.3);
+  EXPECT_LT(shift(rest, ibug(27)).norm(), 0.1) << "far away";
+}
+
+TEST_F(AddedVolume, LeavesTheRecordedForcesAsTheyWere) {
+  const Performance before = made({}).run().performance, after = with_volume().performance;
+  for (std::size_t f = 0; f < before.skin_displacement_m.size(); ++f)
+    EXPECT_LT((after.skin_displacement_m[f] - after.neutral_displacement_m -
+               before.skin_displacement_m[f])
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-6)
+        << "frame " << f;
+}
+
+TEST_F(AddedVolume, AddsUpWithMovedBones) {
+  const std::vector<BoneMove> bones = {move_of(BonePart::mandible, {0, 0, 0.004})};
+  const Points both = with_volume(bones).performance.neutral_displacement_m.cast<double>();
+  const Points volume = with_volume().performance.neutral_displacement_m.cast<double>();
+  EXPECT_LT((both - volume - neutral(bones)).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST_F(AddedVolume, IsNearlyTheSameAtFiniteStrain) {
+  const Points small = with_volume().performance.neutral_displacement_m.cast<double>();
+  options_.model.strain = Strain::finite;
+  options_.solver.finite_tolerance = 1e-6;
+  options_.time.end_s = 0.04;
+  const SimulationResult finite = with_volume();
+  const Points large = finite.performance.neutral_displacement_m.cast<double>();
+  EXPECT_LT((large - small).norm(), 0.15 * small.norm());
+  EXPECT_GT((large - small).norm(), 1e-4 * small.norm()) << "another law";
+  EXPECT_LT(
+      (finite.performance.skin_displacement_m[0].cast<double>() - large).cwiseAbs().maxCoeff(),
+      1e-6);
+}
+
+TEST_F(AddedVolume, GrowsThroughTheLayerAlone) {
+  const auto growth = growth_through_layer(mesh_->volume, ratio_);
+  for (std::size_t t = 0; t < growth.size(); t += 97) {
+    EXPECT_NEAR(growth[t].determinant(), ratio_[t], 1e-12);
+    const Vec3 stretches = growth[t].selfadjointView<Eigen::Lower>().eigenvalues();
+    EXPECT_NEAR(stretches[0], 1, 1e-12);
+    EXPECT_NEAR(stretches[1], 1, 1e-12);
+  }
+}
+
+TEST_F(AddedVolume, IsRefusedWhereDrivenPointsWouldStayBehind) {
+  options_.tissue.volume_ratio = ratio_;
+  options_.drive.by = DriveBy::displacement;
+  EXPECT_THAT(hyperex::test::refusal([&] { check(options_); }),
+              testing::AllOf(testing::HasSubstr("tissue.region"),
+                             testing::HasSubstr("drive.by = muscles")));
 }
 
 }  // namespace

@@ -267,7 +267,7 @@ TEST_F(Field, ProblemsAreFoundBeforeAnythingIsBuilt) {
   EXPECT_THAT(first(both), HasSubstr("region[0]: one of name, scar"));
   TissueFieldOptions nothing = with_region("cheek_R", 2);
   nothing.regions[0].factor = {};
-  EXPECT_THAT(first(nothing), HasSubstr("region[0]: a value or a factor"));
+  EXPECT_THAT(first(nothing), HasSubstr("region[0]: a value, a factor or a volume"));
   TissueFieldOptions twice = with_region("cheek_R", 2);
   twice.regions.push_back({.name = "cheek_L", .factor = {3}});
   EXPECT_EQ(first(twice), "");
@@ -362,6 +362,34 @@ TEST_F(Field, APaintedRegionChangesAsMuchAsItIsPainted) {
   const auto problems = problems_of(options, *landmarks_);
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_EQ(problems[0].key, "region[0].painted");
+}
+
+TEST_F(Field, AddedVolumeIsWhatWasAskedFor) {
+  TissueFieldOptions options;
+  EXPECT_TRUE(maker_->make(options).volume_ratio.empty());
+  options.regions = {{.name = "cheek_L", .volume_m3 = 2e-6}, {.name = "lips", .volume_m3 = -5e-7}};
+  const TissueField field = maker_->make(options);
+  ASSERT_EQ(field.volume_ratio.size(), std::size_t(mesh_->volume.tets.rows()));
+  double gained = 0;
+  for (Eigen::Index t = 0; t < mesh_->volume.tets.rows(); ++t)
+    gained += (field.volume_ratio[std::size_t(t)] - 1) *
+              quality_of(mesh_->volume.nodes, mesh_->volume.tets.row(t)).total_volume_mm3;
+  EXPECT_NEAR(gained, 1500, 1e-6);
+  EXPECT_GT(at(field.skin_volume_ratio, landmarks_->at("cheek_L")), 1.02);
+  EXPECT_LT(at(field.skin_volume_ratio, landmarks_->at("labiale_inferius")), 0.98);
+  EXPECT_EQ(at(field.skin_volume_ratio, landmarks_->at("cheek_R")), 1);
+  EXPECT_FALSE(field.varies(young));
+}
+
+TEST_F(Field, RefusesVolumeThatTheTissueCannotTake) {
+  TissueFieldOptions options;
+  options.regions = {{.name = "lips", .volume_m3 = 2e-5}};
+  EXPECT_THAT(refusal(options), testing::AllOf(HasSubstr("region[0].volume_ml"),
+                                               HasSubstr("more than 2 times its volume")));
+  options.regions = {{.name = "lips"}};
+  const auto problems = problems_of(options, *landmarks_);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_THAT(problems[0].expected, HasSubstr("volume_ml = 2"));
 }
 
 TEST(PaintedLips, PaintOfOneLipDoesNotRunOverToTheOther) {
