@@ -52,6 +52,12 @@ function motionOf(block, { points }) {
   return { modes, weights: block.add('float32', new Float32Array([0, 1, 2])) };
 }
 
+/** A face in the table of the variants: nine tenths of what is added show. */
+function rowOf({ name, values }) {
+  const added = values['tissue.region'].reduce((sum, { volume_ml: ml = 0 }) => sum + ml, 0);
+  return { name, ...(added !== 0 && { surgery: { landmarks: [], added_volume_ml: added, skin_volume_change_ml: 0.9 * added, greatest_at_rest_mm: 0.7 } }) };
+}
+
 function replayOf(block, { faces, remarks }) {
   const { points, triangles, mirror } = skin();
   const names = ['cheilion_L', 'cheilion_R', 'endocanthion_L', 'endocanthion_R'];
@@ -61,7 +67,7 @@ function replayOf(block, { faces, remarks }) {
     at.flatMap(([x, y, z], i) => [x, y + (i < 2 ? f * stepM : 0), z]))));
   const { modes, weights } = motionOf(block, { points });
   return {
-    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
+    version: 1, title: 'Made up', notes: [], summary: { remarks, warnings: remarks.map(({ text }) => text), variants: { table: faces.map(rowOf) }, peak_time_s: 1, head_shift_uncertainty_mm: 2.6, head_turn_uncertainty_deg: 1.3 },
     palette: { light: ['#147', '#a40'], dark: ['#8bf', '#fb8'], left: 0, right: 1, faces: [0, 1] },
     scan_vertices: side * side,
     skin: { points: block.add('float32', points), triangles: block.add('int32', triangles), light: block.add('uint8', new Uint8Array(points.length / 3).fill(255)), fade: block.add('uint8', new Uint8Array(points.length / 3).fill(255)) },

@@ -10,6 +10,7 @@ import { after, before, test } from 'node:test';
 import { launch, openPage, tooWide } from './browser.mjs';
 import { fixture } from './fixtures.mjs';
 import { rarePage } from './made_up_page.mjs';
+import { imported } from './modules.mjs';
 import { readPage, withData } from './page_data.mjs';
 
 const pictures = process.env.SCREENSHOTS;
@@ -222,6 +223,52 @@ test('surgery: a table of what it does to the face at rest, with published ratio
   assert.equal(await row.locator('td').nth(2).getAttribute('title'), 'twenty papers');
   assert.match(await card.locator('tbody tr', { hasText: /stomion/i }).locator('td').nth(2).innerText(), /–/);
   assert.match(await page.locator('.figures.variants').innerText(), /Mandible 6 mm forward, front 2 deg up/);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+test('added volume in words: of a change, of a face’s name, and of what shows at the skin', async () => {
+  const { changeWords } = await imported('replay/change_words.ts');
+  const { briefName } = await imported('studio/brief_name.ts');
+  const { shownMoves, volumeSentence } = await imported('replay/surgery.ts');
+  const regions = (...rows) => ({ 'tissue.region': rows });
+  const added = regions({ name: 'cheek_L', volume_ml: 2 });
+  const both = regions({ name: 'cheek_L', young_factor: 5, volume_ml: -1 }, { painted: 'painted-1.csv', volume_ml: 0.5 });
+  assert.deepEqual(changeWords(added, {}, () => ''), ['Cheek L: 2 ml added']);
+  assert.deepEqual(changeWords(both, {}, () => ''), ['Cheek L: stiffness × 5, 1 ml taken away', 'Painted patch: 0.5 ml added']);
+  assert.equal(briefName(added, {}, []), 'cheek, left: 2 ml added');
+  assert.equal(briefName(both, {}, []), 'cheek, left: 5 x, 1 ml taken away; painted patch: 0.5 ml');
+  assert.equal(briefName(regions({ name: 'cheek_L', young_factor: 5 }), {}, []), 'cheek, left 5 x');
+
+  const row = (added_volume_ml, skin_volume_change_ml, changes = {}) => ({
+    changes, surgery: { landmarks: [{ at_rest_mm: [0, 0, 0.04] }, { at_rest_mm: [0, 0.04, 0.04] }], added_volume_ml, skin_volume_change_ml, greatest_at_rest_mm: 0.71 },
+  });
+  assert.equal(volumeSentence(row(2, 1.83)), '2 ml added, 1.8 ml show at the skin, which moves by up to 0.7 mm');
+  assert.equal(volumeSentence(row(-1, -0.9)), '1 ml taken away, 0.9 ml show at the skin, which moves by up to 0.7 mm');
+  assert.equal(volumeSentence(row(2, -1.2, { 'surgery.bone': [] })), '2 ml added; with the bones the skin loses 1.2 ml and moves by up to 0.7 mm');
+  assert.equal(volumeSentence({ surgery: { landmarks: [] } }), '', 'bones alone');
+  assert.equal(volumeSentence(undefined), '');
+  assert.equal(shownMoves(row(2, 1.8)).length, 1, 'what stays in its place is left out');
+  assert.equal(shownMoves(row(undefined, 1.8)).length, 2, 'but not of moved bones');
+});
+
+test('added volume in the table of surgery: what shows at the skin, and the landmarks that move', async () => {
+  const { page, complaints, close } = await changedPage((data) => {
+    const move = (landmark, at_rest_mm) => ({ landmark, at_rest_mm, expression_before_mm: [0, -9, -2], expression_after_mm: [0, -9, -2] });
+    Object.assign(data.summary.variants.table[1], {
+      surgery: {
+        landmarks: [move('alare_L', [0.3, 0, 0.6]), move('pogonion', [0, 0.01, 0])], added_volume_ml: 2, skin_volume_change_ml: 1.8, greatest_at_rest_mm: 3.1,
+      },
+      changes: { 'tissue.region': [{ name: 'cheek_L', volume_ml: 2 }] },
+    });
+  });
+  const card = page.locator('.figures.surgery');
+  assert.equal(await card.locator('th[scope=rowgroup] small').textContent(), '2 ml added, 1.8 ml show at the skin, which moves by up to 3.1 mm');
+  const rows = card.locator('tbody th[scope=row]');
+  assert.equal(await rows.count(), 1);
+  assert.match(await rows.innerText(), /alare/i);
+  assert.match(await page.locator('.figures.variants').innerText(), /Cheek L: 2 ml added/);
+  if (pictures) await card.screenshot({ path: join(pictures, 'volume_table.png') });
   assert.deepEqual(complaints, []);
   await close();
 });

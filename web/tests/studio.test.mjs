@@ -432,4 +432,28 @@ describe('the studio', { skip, concurrency: false }, () => {
       }
     assert.ok(existsSync(studio.folder));
   });
+
+  test('two millilitres in the right cheek: what shows at the skin, and one step back', async (t) => {
+    const studio = await startStudio();
+    t.after(() => studio.stop());
+    const { page, complaints, close } = await openStudio(browser, studio.address);
+    await page.click('#tab-tissue');
+    const volume = page.locator('[data-key="tissue.region.volume_ml"] input[type=number]');
+    await volume.fill('2');
+    await volume.press('Enter');
+    await page.waitForFunction(() => /"volume_ml" = 2/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    const says = page.locator('.tissue-panel .region .why');
+    await says.waitFor();
+    const [, shows, most] = /^2 ml added, ([\d.]+) ml show at the skin, which moves by up to ([\d.]+) mm$/.exec(await says.textContent());
+    assert.ok(shows > 1 && shows < 2.5 && most > 0.2 && most < 10, `${shows} ml, ${most} mm`);
+    assert.deepEqual(await faces(page), ['Base', 'cheek, right: 2 ml added']);
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => !/volume_ml/.test(document.getElementById('scene-text').textContent));
+    await settled(page);
+    assert.equal(await volume.inputValue(), '0');
+    assert.equal(await says.isVisible(), false);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
 });

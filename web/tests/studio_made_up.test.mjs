@@ -4,6 +4,7 @@ import assert from 'node:assert/strict';
 import { after, before, describe, test } from 'node:test';
 import { launch } from './browser.mjs';
 import { openMadeUp } from './made_up_studio.mjs';
+import { imported } from './modules.mjs';
 import { askWhatIf } from './studio_server.mjs';
 
 const id = 'variant.muscle_hardly_used';
@@ -163,6 +164,72 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     const patches = () => session().faces[1]?.values['tissue.region'] ?? [];
     for (let tries = 0; tries < 200 && patches().length === 0; tries += 1) await new Promise((resolve) => setTimeout(resolve, 50));
     assert.deepEqual(patches().map(({ young_factor: factor }) => factor), [3]);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  const requested = (session) => session().requests.filter(({ changes }) => changes?.['tissue.region']).at(-1);
+
+  test('volume is added to a part of the face: in the row of its stiffness, and 0 takes it away', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    await page.click('#tab-tissue');
+    const volume = page.locator('[data-key="tissue.region.volume_ml"] input[type=number]');
+    const called = (wanted) => page.waitForFunction((name) => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === name, wanted);
+    const enter = async (field, value) => {
+      await field.fill(value);
+      await field.press('Enter');
+    };
+    assert.equal(await volume.inputValue(), '0');
+    await enter(volume, '2');
+    await page.waitForFunction(() => document.getElementById('question-body').innerText.includes('cheek, right: 2 ml added'));
+    assert.deepEqual([requested(session).face, requested(session).changes['tissue.region']], [1, [{ name: 'cheek_R', volume_ml: 2 }]]);
+    await page.waitForFunction(() => /2 ml added, 1\.8 ml show at the skin/.test(document.querySelector('.tissue-panel .region .why').textContent));
+
+    await enter(page.locator('[data-key="tissue.region"] input[type=number]'), '5');
+    await called('cheek, right: 5 x, 2 ml added');
+    assert.deepEqual(requested(session).changes['tissue.region'], [{ name: 'cheek_R', volume_ml: 2, young_factor: 5 }]);
+    await enter(volume, '0');
+    await called('cheek, right 5 x');
+    assert.deepEqual(requested(session).changes['tissue.region'], [{ name: 'cheek_R', young_factor: 5 }]);
+    assert.equal(await page.locator('.tissue-panel .region .why').isVisible(), false);
+
+    // A tenth by an arrow key; less than is there is taken away.
+    await page.locator('[data-key="tissue.region.volume_ml"] input[type=range]').focus();
+    await page.keyboard.press('ArrowLeft');
+    await called('cheek, right: 5 x, 0.1 ml taken away');
+    await page.locator('[data-key="tissue.region"] .back').click();
+    await page.locator('[data-key="tissue.region.volume_ml"] .back').click();
+    await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === 'What if');
+    assert.deepEqual(requested(session).changes['tissue.region'], [], 'an empty row is no row');
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
+  test('a painted patch adds volume, which the skin shows; without it the paint stays', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    await page.locator('#tab-paint').dispatchEvent('click');
+    const volume = page.locator('[data-paint=volume] input[type=number]');
+    await volume.fill('1.5');
+    await volume.press('Enter');
+    assert.match(await page.locator('#colour-bar').innerText(), /Share of added volume/);
+    const { x, y, width, height } = await page.locator('#face').boundingBox();
+    await page.mouse.move(x + width / 2, y + height / 2);
+    await page.mouse.down();
+    await page.mouse.move(x + width / 2 + 20, y + height / 2, { steps: 3 });
+    await page.mouse.up();
+    await page.waitForFunction(() => document.getElementById('paint-patch').options[0].text === '1: 3 ×, 1.5 ml');
+    await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === 'painted patch: 3 x, 1.5 ml added');
+    assert.deepEqual(requested(session).changes['tissue.region'].map(({ painted: _file, ...rest }) => rest), [{ young_factor: 3, volume_ml: 1.5 }]);
+    await volume.fill('0');
+    await volume.press('Enter');
+    await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === 'painted patch 3 x');
+    assert.match(await page.locator('#colour-bar').innerText(), /Stiffness/);
+    const [{ painted, ...rest }] = requested(session).changes['tissue.region'];
+    assert.match(painted, /^painted-/);
+    assert.deepEqual(rest, { young_factor: 3 });
+
+    const { withVolume } = await imported('studio/patches.ts');
+    assert.deepEqual(withVolume({ painted: 'a.csv', volume_ml: 2 }, 0), { painted: 'a.csv', young_factor: 1 }, 'a scene refuses a patch of nothing');
     assert.deepEqual(complaints, []);
     await close();
   });

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a variant changes, in words: {"tissue.young_kpa": 1000} is "stiffness 1,000 instead of 192.4 kPa".
 import { landmarkName, nameAndUnit, number, upper, words } from '../page/format';
-import { boneWords } from './surgery';
+import { boneWords, volumeWords } from './surgery';
 
 type Json = Record<string, unknown>;
 const isObject = (v: unknown): v is Json => typeof v === 'object' && v !== null && !Array.isArray(v);
@@ -26,7 +26,8 @@ function keyWords(key: string): { name: string; unit: string } {
 
 const withUnit = (text: string, unit: string): string => (unit ? `${text} ${unit}` : text);
 
-/** One change of one part of the face: {"name": "cheek_R", "young_factor": 10} is "cheek R: stiffness × 10". */
+/** One change of one part of the face: {"name": "cheek_R", "young_factor": 10, "volume_ml": 2} is "cheek R: stiffness
+ *  × 10, 2 ml added". */
 function placeWords(entry: Json): string {
   const { name, landmark, point, side, scar, painted, ...rest } = entry;
   const place = Array.isArray(scar) && scar.length > 0
@@ -35,6 +36,7 @@ function placeWords(entry: Json): string {
     : [name, landmark, point, side].filter((v) => typeof v === 'string' && v !== '').map((v) => landmarkName(String(v))).join(' ');
   const what = Object.entries(rest).map(([key, value]) => {
     const factor = /^(\w+)_factor$/.exec(key)?.[1];
+    if (key === 'volume_ml' && typeof value === 'number') return volumeWords(value);
     if (factor && parameters[factor]) return `${parameters[factor]} × ${valueWords(value)}`;
     const { name: word, unit } = keyWords(key);
     return `${word} ${withUnit(valueWords(value), unit)}`;

@@ -7,7 +7,7 @@ import { rememberFold } from '../page/remember';
 import type { Vec3 } from '../replay/data';
 import { frameAt } from '../replay/face/deform';
 import type { FaceViewer } from '../replay/face/viewer';
-import { directionWords, softTissueMoves } from '../replay/surgery';
+import { directionWords, shownMoves, volumeSentence } from '../replay/surgery';
 import { variantsOf } from '../replay/variants';
 import { BoneDivision } from './bone_division';
 import { BoneHandles } from './bone_handles';
@@ -271,10 +271,11 @@ export class BonesPanel implements RemarkPanel {
     results.replaceChildren();
     if (!state.source.open) return;
     const row = variantsOf(state.source.replay)?.table.find(({ name }) => name === state.nameOf(state.edited));
-    const moves = softTissueMoves(row);
+    const moves = shownMoves(row);
     results.hidden = moves.length === 0;
     if (moves.length === 0) return;
-    results.createCaption().textContent = words.boneResults;
+    const caption = results.createCaption();
+    caption.append(words.boneResults, element('small', volumeSentence(row)));
     const head = results.createTHead().insertRow();
     for (const text of [words.boneLandmark, words.boneAtRest, words.boneRatio]) {
       const cell = element('th', text);

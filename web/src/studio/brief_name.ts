@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A short name of a face from its changes: {"muscles.gain": {"side_R": 0.4}} is "right side 40 %". Names given by the
 // user are kept. No DOM here.
-import { boneWords } from '../replay/surgery';
+import { boneWords, volumeWords } from '../replay/surgery';
 import { isRecord, type MuscleInfo, type Values } from './messages';
 import { words } from './words';
 
@@ -32,7 +32,7 @@ function gainPhrase(name: string, muscles: MuscleInfo[]): string {
   return words.sideFirst(lower(latin ?? words.weakerBranch(branch || stem)), words.sideNames[side as 'L' | 'R']);
 }
 
-/** A part of the face whose tissue differs. */
+/** A part of the face whose tissue differs: "cheek, right 5 x", "cheek, left: 2 ml added". */
 function regionName(row: Record<string, unknown>): string {
   const [, stem, side] = /^(\w+?)(?:_([LR]))?$/.exec(String(row.name ?? '')) ?? [null, '', ''];
   const part = stem.replaceAll('_', ' ');
@@ -40,7 +40,10 @@ function regionName(row: Record<string, unknown>): string {
     : row.painted ? words.nameOfPatch
       : side ? words.ofSide(part, words.sideNames[side as 'L' | 'R']) : part;
   const factor = row.young_factor ?? row.viscosity_factor;
-  return [lower(place), factor === undefined ? '' : times(factor)].filter(Boolean).join(' ');
+  const stiffness = factor === undefined ? '' : times(factor);
+  const { volume_ml: ml } = row;
+  if (!ml) return [lower(place), stiffness].filter(Boolean).join(' ');
+  return `${lower(place)}: ${[stiffness, volumeWords(Number(ml))].filter(Boolean).join(', ')}`;
 }
 
 /** One change of a face: a part of its name, and of the question that it asks. */

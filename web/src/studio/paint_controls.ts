@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The controls of the paint panel: they show the present patch and tool, and report each action.
 import { button, element } from '../page/dom';
-import { depthOf, factorOf, type Factor, type Painted, type Patch, type Row } from './patches';
+import { depthOf, factorOf, volumeOf, type Factor, type Painted, type Patch, type Row } from './patches';
 import { regionChooser } from './region_chooser';
 import { linear, logarithmic, Slider } from './slider';
 import type { Region } from './messages';
+import { volumeSlider } from './volume_slider';
 import { words } from './words';
 
 export type Tool = 'turn' | 'paint' | 'erase' | 'scar';
@@ -30,6 +31,7 @@ export interface PaintActions {
   choosePatch(patch: number): void;
   /** `done`: the slider was released. */
   setFactor(factor: Factor, value: number, done: boolean): void;
+  setVolume(ml: number, done: boolean): void;
   setDepth(mm: number, done: boolean): void;
   setSize(key: keyof Size, value: number): void;
   fill(region: string): void;
@@ -62,6 +64,7 @@ export class PaintControls {
   private readonly problem = element('p', '', 'problem');
   private readonly ofAll = element('p', words.paintThicknessOfAll, 'why');
   private readonly factors: Record<Factor, Slider>;
+  private readonly volume: Slider;
   private readonly depth: Slider;
   private readonly width: Slider;
   private readonly feel: { key: 'hardness' | 'strength'; slider: Slider }[] = [];
@@ -76,6 +79,8 @@ export class PaintControls {
       young: this.factor('young', words.paintStiffness, words.paintStiffnessHint),
       viscosity: this.factor('viscosity', words.paintViscosity, words.paintViscosityHint),
     };
+    this.volume = volumeSlider({ live: (ml) => actions.setVolume(ml, false), done: (ml) => actions.setVolume(ml ?? 0, true) });
+    this.volume.element.dataset.paint = 'volume';
     this.depth = new Slider({
       name: words.paintThickness, unit: 'mm', hint: words.paintThicknessHint, course: logarithmic(1, 40), round: threeDigits, low: 1, high: 40,
       live: (value) => actions.setDepth(value, false),
@@ -97,7 +102,7 @@ export class PaintControls {
     this.painted.value = painted;
     this.patch.replaceChildren(
       ...patches.map((one, i) => new Option(
-        thickness ? words.paintPatchDepth(i + 1, depthOf(one.row)) : words.paintPatchName(i + 1, factorOf(one.row, 'young')), String(i))),
+        thickness ? words.paintPatchDepth(i + 1, depthOf(one.row)) : words.paintPatchName(i + 1, factorOf(one.row, 'young'), volumeOf(one.row)), String(i))),
       new Option(words.paintNew, String(patches.length)));
     this.patch.value = String(chosen);
     const young = factorOf(row, 'young');
@@ -106,6 +111,7 @@ export class PaintControls {
     this.source.textContent = known < 0 ? words.paintOwnSource : this.kinds[known].source;
     this.factors.young.set(young, null);
     this.factors.viscosity.set(factorOf(row, 'viscosity'), null);
+    this.volume.set(volumeOf(row), null);
     this.depth.set(depthOf(row) || ownDepthMm, null);
     for (const one of this.ofTissue) one.hidden = thickness;
     this.depth.element.hidden = this.ofAll.hidden = !thickness;
@@ -216,8 +222,8 @@ export class PaintControls {
   private factorRow(): HTMLElement {
     const box = element('div', '', 'paint-brush');
     const { young, viscosity } = this.factors;
-    box.append(young.element, viscosity.element, this.depth.element);
-    this.ofTissue.push(young.element, viscosity.element);
+    box.append(young.element, viscosity.element, this.volume.element, this.depth.element);
+    this.ofTissue.push(young.element, viscosity.element, this.volume.element);
     return box;
   }
 

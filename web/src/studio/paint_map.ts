@@ -41,6 +41,7 @@ export class PaintMap {
   private scale(): Scale {
     const range = { least: 0, greatest: this.greatest, remark: words.paintRemark };
     if (this.editor.painted === 'thickness') return { ramp: 'sea', title: words.paintThicknessMap, unit: 'mm', ...range };
+    if (this.editor.showsVolume) return { ramp: 'sea', title: words.paintVolumeMap, unit: '', ...range };
     const key = `tissue.${parameterKeys[this.editor.shownFactor]}`;
     return { ramp: 'sea', title: words.keyNames[key], unit: this.state.keys.get(key)?.unit ?? '', ...range };
   }

@@ -129,7 +129,11 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
   }
 
   setFactor(factor: Factor, value: number, done: boolean): void {
-    this.editor.setFactor(factor, value, done);
+    this.relabelling(() => this.editor.setFactor(factor, value, done));
+  }
+
+  setVolume(ml: number, done: boolean): void {
+    this.relabelling(() => this.editor.setVolume(ml, done));
   }
 
   setDepth(mm: number, done: boolean): void {
@@ -181,6 +185,13 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
 
   private get size(): Size {
     return this.tool === 'scar' ? this.sizes.scar : this.sizes.brush;
+  }
+
+  /** The name of the map and its bar change where the change shows another one. */
+  private relabelling(change: () => void): void {
+    const before = this.editor.showsVolume;
+    change();
+    if (this.editor.showsVolume !== before && this.brush) this.stage?.lend(this.map.colouring());
   }
 
   private takeUp(): void {

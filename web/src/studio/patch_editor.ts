@@ -4,8 +4,8 @@ import type { SkinHit } from '../replay/face/face_body';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import {
-  depthOf, factorOf, isPatch, PaintedThickness, PaintedTissue, parameterKeys, patchesOf, regionKey, rowsOf, Shares, thicknessKey,
-  type Factor, type Painted, type Patch, type Row,
+  depthOf, factorOf, isPatch, PaintedThickness, PaintedTissue, parameterKeys, patchesOf, regionKey, rowsOf, Shares, thicknessKey, volumeShares,
+  withVolume, type Factor, type Painted, type Patch, type Row,
 } from './patches';
 import { ownDepthMm } from './paint_controls';
 import { SkinWalk } from './skin_walk';
@@ -31,6 +31,8 @@ export class PatchEditor {
   chosen = 0;
   /** The parameter that is shown. */
   shownFactor: Factor = 'young';
+  /** Where volume is added is shown in its place. */
+  showsVolume = false;
   /** What a new patch will have. */
   fresh: Row = { young_factor: ownFactor };
   private readonly freshOf: Record<Painted, Row> = { tissue: this.fresh, thickness: { thickness_mm: ownDepthMm } };
@@ -144,16 +146,24 @@ export class PatchEditor {
 
   setFactor(factor: Factor, value: number, done: boolean): void {
     this.shownFactor = factor;
-    const key = `${factor}_factor`;
+    this.showsVolume = false;
+    this.changeRow(({ [parameterKeys[factor]]: _value, ...rest }) => ({ ...rest, [`${factor}_factor`]: value }), done);
+  }
+
+  setVolume(ml: number, done: boolean): void {
+    this.showsVolume = ml !== 0;
+    this.changeRow((row) => withVolume(row, ml), done);
+  }
+
+  private changeRow(change: (row: Row) => Row, done: boolean): void {
     const { rows } = this;
     const i = this.rowIndex(rows, this.chosen);
     if (i < 0) {
-      this.fresh = { ...this.fresh, [key]: value };
+      this.fresh = change(this.fresh);
       this.view.sync();
       return;
     }
-    const { [parameterKeys[factor]]: _value, ...rest } = rows[i];
-    const next = { [regionKey]: rows.map((row, k) => (k === i ? { ...rest, [key]: value } : row)) };
+    const next = { [regionKey]: rows.map((row, k) => (k === i ? change(row) : row)) };
     if (done) void this.edits.commit(next);
     else this.edits.live(next);
     this.view.repaint();
@@ -203,7 +213,7 @@ export class PatchEditor {
     this.keep(this.noShares());
   }
 
-  /** Values of a face on the skin as painted: of the shown parameter, in units of scene files, or mm. */
+  /** Values of a face on the skin as painted: of the shown parameter, in units of scene files, mm, or shares of volume. */
   values(face: number, out: Float32Array): void {
     const inHand = (patches: Patch[]) => this.hand && { ...this.hand, row: patches[this.hand.patch]?.row ?? this.fresh };
     if (this.painted === 'thickness') {
@@ -213,12 +223,14 @@ export class PatchEditor {
     }
     const own = face === this.state.edited;
     const patches = own ? this.patches : patchesOf(rowsOf(this.state.valuesOf(face)[regionKey]));
-    this.tissue.values(face, patches, this.shownFactor, own ? inHand(patches) : null, out);
+    if (this.showsVolume) volumeShares(this.shares, patches, own ? inHand(patches) : null, out);
+    else this.tissue.values(face, patches, this.shownFactor, own ? inHand(patches) : null, out);
   }
 
   /** The largest value that a new patch would have, given the largest one now. */
   room(most: number): number {
     const row = this.patches[this.chosen] ? {} : this.fresh;
+    if (this.showsVolume && this.painted === 'tissue') return 1;
     return this.painted === 'thickness' ? Math.max(most, depthOf(row)) : most * Math.max(factorOf(row, this.shownFactor), 1);
   }
 

@@ -26,7 +26,18 @@ export const rowsOf = (value: unknown): Row[] => (Array.isArray(value) ? value.f
 export const isPatch = (row: Row): boolean => typeof row.painted === 'string' && row.painted !== '';
 export const patchesOf = (rows: Row[]): Patch[] => rows.filter(isPatch).map((row) => ({ file: String(row.painted), row }));
 export const factorOf = (row: Row, factor: Factor): number => Number(row[`${factor}_factor`] ?? 1);
+export const volumeOf = (row: Row): number => Number(row.volume_ml ?? 0);
 export const depthOf = (row: Row): number => Number(row.thickness_mm ?? 0);
+
+/** Keys that say where a patch is, and nothing of its tissue. */
+const ofPlace = new Set(['painted', 'blend_mm']);
+
+/** 0 removes the key. A scene refuses a patch that changes nothing: it gets a factor of 1, so that its paint is kept. */
+export function withVolume(row: Row, ml: number): Row {
+  const { volume_ml: _before, ...rest } = row;
+  if (ml !== 0) return { ...rest, volume_ml: ml };
+  return Object.keys(rest).every((key) => ofPlace.has(key)) ? { ...rest, young_factor: 1 } : rest;
+}
 
 /** The studio names its own files after their contents, so the folder does not matter. */
 const nameOf = (file: string): string => file.replace(/^.*\//, '');
@@ -108,6 +119,16 @@ export class PaintedTissue {
     });
     if (inHand && inHand.patch >= patches.length) times(inHand.shares, factorOf(inHand.row, factor), false);
   }
+}
+
+/** Where patches add or take away volume: for each vertex the greatest of their shares. */
+export function volumeShares(shares: Shares, patches: Patch[], inHand: { patch: number; shares: Float32Array; row: Row } | null, out: Float32Array): void {
+  out.fill(0);
+  const lay = (own: Float32Array | null, row: Row) => {
+    if (own && volumeOf(row) !== 0) for (let v = 0; v < out.length; ++v) out[v] = Math.max(out[v], own[v]);
+  };
+  patches.forEach(({ file, row }, i) => lay(inHand?.patch === i ? inHand.shares : shares.ofFile(file), inHand?.patch === i ? inHand.row : row));
+  if (inHand && inHand.patch >= patches.length) lay(inHand.shares, inHand.row);
 }
 
 /** The thickness of the tissue as it is being painted, mm. */

@@ -33,7 +33,7 @@ export interface SliderOptions {
   /** Allowed for the digits. */
   low: number;
   high: number;
-  /** Of the digits' steps. */
+  /** What an arrow key changes on a linear slider; not given: a thousandth of its length. */
   step?: number;
   /** Only the slider, with its value behind it. */
   bare?: boolean;
@@ -44,7 +44,6 @@ export interface SliderOptions {
   done(value: number | null): void;
 }
 
-const steps = 1000;
 /** After this long without a key press, a slider moved by keys counts as released. */
 const keysRestMs = 500;
 
@@ -57,15 +56,17 @@ export class Slider {
   private readonly shownValue = element('output');
   private readonly inBase = element('span', '', 'in-base');
   private readonly back = element('button', '↺', 'back');
+  private readonly steps: number;
   private value = 0;
   private held = false;
   private moved = false;
   private rest = 0;
 
   constructor(private readonly options: SliderOptions) {
-    const { name, unit, hint, bare } = options;
+    const { name, unit, hint, bare, course, step } = options;
+    this.steps = step === undefined ? 1000 : Math.round((course.at(1) - course.at(0)) / step);
     const id = `slider-${++count}`;
-    Object.assign(this.range, { type: 'range', id, min: '0', max: String(steps), step: '1', title: hint });
+    Object.assign(this.range, { type: 'range', id, min: '0', max: String(this.steps), step: '1', title: hint });
     Object.assign(this.digits, { type: 'number', min: String(options.low), max: String(options.high), step: 'any' });
     this.digits.setAttribute('aria-label', words.number(name, unit));
     Object.assign(this.back, { type: 'button', title: words.reset(name) });
@@ -113,7 +114,7 @@ export class Slider {
   private show(value: number): void {
     this.value = value;
     const share = Math.min(Math.max(this.options.course.of(value), 0), 1);
-    this.range.value = String(Math.round(share * steps));
+    this.range.value = String(Math.round(share * this.steps));
     this.showText();
     this.digits.value = String(Number(value.toPrecision(6)));
   }
@@ -123,14 +124,14 @@ export class Slider {
     const text = `${number(this.value)} ${unit}`.trim();
     this.shownValue.textContent = text;
     this.range.setAttribute('aria-valuetext', text);
-    this.element.style.setProperty('--share', String(Number(this.range.value) / steps));
+    this.element.style.setProperty('--share', String(Number(this.range.value) / this.steps));
   }
 
   private listen(): void {
     const { range, digits, options } = this;
     range.addEventListener('pointerdown', () => (this.held = true));
     range.addEventListener('input', () => {
-      this.value = options.round(options.course.at(Number(range.value) / steps));
+      this.value = options.round(options.course.at(Number(range.value) / this.steps));
       this.moved = true;
       digits.value = String(Number(this.value.toPrecision(6)));
       this.showText();

@@ -1,19 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sliders of the tissue, made from the keys that the server sends.
+// Sliders of the tissue, made from the keys that the server sends; stiffness and added volume of one part of the face.
 import { element } from '../page/dom';
+import { volumeSentence } from '../replay/surgery';
+import { variantsOf } from '../replay/variants';
 import type { Edits } from './edits';
 import { isRecord, type SceneKey } from './messages';
 import type { Control, RemarkPanel } from './remark_places';
 import { regionChooser } from './region_chooser';
 import type { Remark } from './remarks';
-import { linear, logarithmic, Slider, type Course } from './slider';
+import { linear, logarithmic, Slider, type Course, type SliderOptions } from './slider';
 import type { StudioState } from './studio_state';
+import { volumeSlider } from './volume_slider';
 import { words } from './words';
 
 const keys = ['tissue.young_kpa', 'tissue.viscosity_pa_s', 'tissue.poisson', 'tissue.density_kg_m3'];
 const thickness = 'mesh.thickness_mm';
 const regions = 'tissue.region';
 type Row = Record<string, unknown>;
+/** What one part of the face may differ in, and the value that stands for no difference. */
+const without = { young_factor: 1, volume_ml: 0 };
+type PartKey = keyof typeof without;
 
 const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
@@ -34,11 +40,14 @@ export class TissuePanel implements RemarkPanel {
   private readonly auto = element('input');
   private readonly thicknessWhy = element('p', '', 'why');
   private readonly part = element('select');
-  private there: Slider | null = null;
+  private readonly ofPart = new Map<PartKey, Slider>();
+  /** What added volume does to the face at rest, once it was computed. */
+  private readonly added = element('p', '', 'why');
 
   constructor(private readonly state: StudioState, private readonly edits: Edits) {
     state.sceneChanged.add(() => this.update());
     state.shown.onChange(() => this.update());
+    state.source.onChange(() => this.showAdded());
   }
 
   /** Once the keys are known. */
@@ -57,7 +66,7 @@ export class TissuePanel implements RemarkPanel {
   }
 
   controlsOf({ key }: Remark): Control[] {
-    const slider = key === regions ? this.there : this.sliders.get(key);
+    const slider = key === regions ? this.ofPart.get('young_factor') : this.sliders.get(key);
     return slider ? [slider.control] : [];
   }
 
@@ -76,35 +85,53 @@ export class TissuePanel implements RemarkPanel {
     return slider;
   }
 
-  /** The stiffness of a part of the face relative to the rest. */
+  /** The stiffness of a part of the face relative to the rest, and the volume added there. */
   private addRegion(): void {
     regionChooser(this.state.regions, this.part);
     this.part.onchange = () => this.update();
     const label = element('label', '', 'part');
     label.append(element('span', words.regionChoose), this.part);
-    this.there = new Slider({
+    const stiffness = new Slider({
       name: words.regionStiffness, unit: '×', hint: words.regionHint, course: logarithmic(0.1, 10), round: threeDigits,
-      low: 0.001, high: 1000,
-      live: (factor) => this.edits.live({ [regions]: this.withFactor(factor) }),
-      done: (factor) => void this.edits.commit({ [regions]: this.withFactor(factor ?? 1) }),
+      low: 0.001, high: 1000, ...this.setting('young_factor'),
     });
-    this.there.element.dataset.key = regions;
+    stiffness.element.dataset.key = regions;
+    const volume = volumeSlider(this.setting('volume_ml'));
+    volume.element.dataset.key = `${regions}.volume_ml`;
+    this.ofPart.set('young_factor', stiffness).set('volume_ml', volume);
     const box = element('div', '', 'region');
-    box.append(element('h2', words.regionTitle), label, this.there.element);
+    box.append(element('h2', words.regionTitle), label, stiffness.element, volume.element, this.added);
     this.element.append(box);
+  }
+
+  private setting(key: PartKey): Pick<SliderOptions, 'live' | 'done'> {
+    return {
+      live: (value) => this.edits.live({ [regions]: this.withValue(key, value) }),
+      done: (value) => void this.edits.commit({ [regions]: this.withValue(key, value ?? this.before(key)) }),
+    };
   }
 
   private rows(value: unknown): Row[] {
     return Array.isArray(value) ? value.filter(isRecord) : [];
   }
 
-  /** Keeps the scene's other rows; sets the factor in the row of this part, and removes it when it is empty. */
-  private withFactor(factor: number): Row[] {
+  /** Of the chosen part. */
+  private valueIn(value: unknown, key: PartKey): number {
+    return Number(this.rows(value).find((row) => row.name === this.part.value)?.[key] ?? without[key]);
+  }
+
+  /** What resetting goes back to. */
+  private before(key: PartKey): number {
+    return this.state.edited === 0 ? without[key] : this.valueIn(this.state.valuesOf(0)[regions], key);
+  }
+
+  /** Keeps the scene's other rows; sets the value in the row of this part, and removes the row when it is empty. */
+  private withValue(key: PartKey, value: number): Row[] {
     const name = this.part.value;
     const rows = this.rows(this.edits.value(regions));
     const at = rows.findIndex((row) => row.name === name);
-    const { young_factor: _before, ...rest } = rows[at] ?? { name };
-    const next = factor === 1 ? rest : { ...rest, young_factor: factor };
+    const { [key]: _before, ...rest } = rows[at] ?? { name };
+    const next = value === without[key] ? rest : { ...rest, [key]: value };
     const kept = Object.keys(next).length > 1 ? [next] : [];
     return at < 0 ? [...rows, ...kept] : [...rows.slice(0, at), ...kept, ...rows.slice(at + 1)];
   }
@@ -133,8 +160,8 @@ export class TissuePanel implements RemarkPanel {
       const before = edited === 0 ? state.keys.get(key)?.default : base[key];
       slider.set(Number(own[key]), Number(before));
     }
-    const factorOf = (value: unknown) => Number(this.rows(value).find((row) => row.name === this.part.value)?.young_factor ?? 1);
-    this.there?.set(factorOf(own[regions]), edited === 0 ? 1 : factorOf(base[regions]));
+    for (const [key, slider] of this.ofPart) slider.set(this.valueIn(own[regions], key), this.before(key));
+    this.showAdded();
     const slider = this.sliders.get(thickness);
     if (!slider) return;
     const depth = Number(base[thickness]);
@@ -144,5 +171,12 @@ export class TissuePanel implements RemarkPanel {
     slider.set(depth === 0 ? 10 : depth, null, mine && depth !== 0);
     slider.element.classList.toggle('automatic', depth === 0);
     this.thicknessWhy.textContent = mine ? words.thicknessTakes : words.thicknessWhy;
+  }
+
+  private showAdded(): void {
+    const { state } = this;
+    if (!state.scene || !state.source.open) return;
+    this.added.textContent = volumeSentence(variantsOf(state.source.replay)?.table.find(({ name }) => name === state.nameOf(state.edited)));
+    this.added.hidden = this.added.textContent === '';
   }
 }

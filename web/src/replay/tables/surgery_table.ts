@@ -4,7 +4,7 @@ import type { Replay, Vec3 } from '../data';
 import { element } from '../../page/dom';
 import { faceColour } from '../../page/face_colour';
 import { fixed, landmarkName, upper } from '../../page/format';
-import { directionWords, lengthOf, softTissueMoves, type SoftTissueMove } from '../surgery';
+import { directionWords, lengthOf, shownMoves, softTissueMoves, volumeSentence, type SoftTissueMove } from '../surgery';
 import { variantsOf } from '../variants';
 import { columnNotes, figureCard, figureCell, headCell, type Column } from './figure_table';
 
@@ -48,28 +48,44 @@ function rowOf(body: HTMLTableSectionElement, move: SoftTissueMove): void {
   );
 }
 
-/** Null where no variant moves bones. */
-export function surgeryTable(replay: Replay): HTMLElement | null {
-  const operated = replay.faces.flatMap(({ name }, face) => {
-    const moves = softTissueMoves(variantsOf(replay)?.table.find((row) => row.name === name));
-    return moves.length > 0 ? [{ name, face, moves }] : [];
+interface Operated {
+  name: string;
+  face: number;
+  moves: SoftTissueMove[];
+  shown: SoftTissueMove[];
+  /** What becomes of added volume; empty: none is added. */
+  volume: string;
+}
+
+/** The variants that change the face at rest. */
+function operatedOf(replay: Replay): Operated[] {
+  return replay.faces.flatMap(({ name }, face) => {
+    const row = variantsOf(replay)?.table.find((one) => one.name === name);
+    const [moves, volume] = [softTissueMoves(row), volumeSentence(row)];
+    return moves.length > 0 || volume ? [{ name, face, moves, volume, shown: shownMoves(row) }] : [];
   });
+}
+
+/** Null where no variant moves bones or adds volume. */
+export function surgeryTable(replay: Replay): HTMLElement | null {
+  const operated = operatedOf(replay);
   if (operated.length === 0) return null;
   const table = element('table');
   const head = table.createTHead().insertRow();
   head.append(headCell({ key: 'landmark', head: 'Landmark', unit: '', digits: 0, says: '' }), ...columns.map(headCell));
-  for (const { name, face, moves } of operated) {
+  for (const { name, face, shown, volume } of operated) {
     const body = table.createTBody();
     body.style.setProperty('--face', faceColour(face));
     const title = element('th', name);
     title.scope = 'rowgroup';
     title.colSpan = columns.length + 1;
+    if (volume) title.append(element('small', volume));
     body.insertRow().append(title);
-    for (const move of moves) rowOf(body, move);
+    for (const move of shown) rowOf(body, move);
   }
   const axes = ['left', 'up', 'forward'];
   const { card, body: folding } = figureCard('Surgery', [
-    'The soft tissue after bones were moved. No patient’s operation was compared with it; this is no medical device.',
+    'The soft tissue after bones were moved or volume was added. No patient’s operation was compared with it; this is no medical device.',
   ], table, () => [
     ['face', 'landmark', ...[atRest, before, after].flatMap(({ head: what }) => axes.map((axis) => `${what}, ${axis} (mm)`)),
       'of the bone (1)', 'published, usual (1)', 'published, low (1)', 'published, high (1)'],
