@@ -2,6 +2,8 @@
 // Changes of the scene, and its history.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene_text.hpp"
@@ -15,12 +17,21 @@ namespace {
 
 constexpr std::size_t kMostSteps = 500;
 
+bool adds_volume(const json& regions) {
+  return regions.is_array() && std::ranges::any_of(regions, [](const json& region) {
+           return region.is_object() && region.contains("volume_ml") &&
+                  region["volume_ml"].is_number() && region["volume_ml"] != 0;
+         });
+}
+
 /// Whether the changes need forces that drive the face.
 bool need_muscles(const json& changes) {
-  for (const auto& [key, value] : changes.items())
+  for (const auto& [key, value] : changes.items()) {
+    if (key == "tissue.region" && adds_volume(value)) return true;
     if ((key.rfind("muscles.", 0) == 0 || key == "surgery.bone") && !value.is_null() &&
         !(value.is_array() && value.empty()))
       return true;
+  }
   return false;
 }
 

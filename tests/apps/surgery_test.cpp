@@ -97,6 +97,30 @@ TEST_F(Surgery, AddsVolumeUnderAPlaceOfTheSkin) {
   EXPECT_FALSE(std::filesystem::exists(in("none")));
 }
 
+TEST_F(Surgery, TellsBonesAndVolumeApart) {
+  write(
+      "tissue.region = [{ name = \"cheek_L\", volume_ml = 2 }]\n"
+      "bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]");
+  const Outcome both = call("run scene.toml --out out");
+  ASSERT_EQ(both.status, 0) << both.err;
+  EXPECT_THAT(both.out, testing::ContainsRegex("at rest: chin [0-9.]+ mm, .*, 2 ml added\n"));
+  const auto of = [&](const char* out) {
+    return nlohmann::json::parse(
+        read_file(in(out) / "summary.json"))["variants"]["table"][1]["surgery"];
+  };
+  for (const auto& one : of("out")["landmarks"])
+    EXPECT_FALSE(one.contains("published")) << "not of bones alone";
+
+  // The same volume elsewhere, and another stiffness there.
+  write("tissue.region = [{ name = \"cheek_R\", volume_ml = 2, young_factor = 2 }]",
+        "tissue.region = [{ name = \"cheek_L\", volume_ml = 2 }]\n"
+        "drive = { by = \"muscles\" }\n");
+  const Outcome elsewhere = call("run scene.toml --out elsewhere");
+  ASSERT_EQ(elsewhere.status, 0) << elsewhere.err;
+  EXPECT_THAT(elsewhere.out, testing::HasSubstr("at rest: volume is elsewhere; the skin moves"));
+  EXPECT_NEAR(of("elsewhere")["added_volume_ml"].get<double>(), 0, 1e-9);
+}
+
 TEST_F(Surgery, IsRefusedInOneSentence) {
   const auto refused = [&](const std::string& variant, const std::string& more = "") {
     write(variant, more);

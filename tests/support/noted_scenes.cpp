@@ -30,13 +30,6 @@ void shift_all_landmarks(const fs::path& folder) {
   write_landmarks(folder, landmarks);
 }
 
-void keep_the_midline_alone(const fs::path& folder) {
-  io::Landmarks landmarks = good_landmarks();
-  std::erase_if(landmarks,
-                [](const auto& one) { return anatomy::mirrored_landmark(one.first) != one.first; });
-  write_landmarks(folder, landmarks);
-}
-
 void misspell_a_landmark(const fs::path& folder) {
   io::Landmarks landmarks = good_landmarks();
   landmarks["cheilon_L"] = landmarks["cheilion_L"];
@@ -163,7 +156,6 @@ const std::vector<NotedScene>& noted_scenes() {
   static const std::vector<NotedScene> all = {
       {"landmarks.doubtful", true, "", misplace_a_landmark},
       {"landmarks.many_doubtful", true, "", shift_all_landmarks},
-      {"landmarks.midline_alone", true, "", keep_the_midline_alone},
       {"landmarks.misspelt", true, "", misspell_a_landmark},
       {"recording.mirror_unknown", true, "motion.file=\nmotion.recording=\"clip.mp4\"",
        write_video},

@@ -21,8 +21,6 @@ constexpr NoteKind kKinds[] = {
     "name of the same place, or farther from where the others predict it than faces differ."),
   warning("landmarks.many_doubtful", "scan.landmarks",
     "More than a third of the landmarks are doubtful: they may belong to another scan."),
-  warning("landmarks.midline_alone", "scan.landmarks",
-    "All landmarks given lie in the midline of the face, as those that a CT shows."),
   warning("landmarks.misspelt", "scan.landmarks",
     "A landmark's name is not known and looks like one that is; at most five are named."),
   warning("recording.mirror_unknown", "motion.mirrored",

@@ -39,6 +39,7 @@ tissue::TissueRegion region_of(const scene::Scene& scene, const std::string& ask
                                 scene.tissue.regions.size()));
     region = scene.tissue.regions[std::size_t(index)];
     region.value = region.factor = {};
+    region.volume_m3 = 0;
     return region;
   }
   if (!tissue::is_region(part)) {

@@ -3,6 +3,8 @@
 
 #include <tbb/task_arena.h>
 
+#include <utility>
+
 namespace hyperex::metrics {
 namespace {
 using simulate::Performance;
@@ -12,7 +14,22 @@ fem::Hyperelastic without_branches(fem::Hyperelastic law) {
   return law;
 }
 
+fem::Assembler grown(fem::Assembler mesh, const Performance& p) {
+  return p.growth.empty() ? std::move(mesh) : mesh.grown(p.growth);
+}
+
 }  // namespace
+
+void take_growth_off(const Performance& p, fem::VoigtRows& strain) {
+  for (std::size_t t = 0; t < p.growth.size(); ++t) {
+    const Eigen::Matrix3d& g = p.growth[t];
+    auto e = strain.row(Eigen::Index(t));
+    for (int k = 0; k < 3; ++k) e[k] -= g(k, k) - 1;
+    e[3] -= 2 * g(0, 1);
+    e[4] -= 2 * g(1, 2);
+    e[5] -= 2 * g(2, 0);
+  }
+}
 
 fem::Material elastic_material(const Performance& p) {
   // The values are rounded to float so that the results agree exactly with the stress written so
@@ -27,7 +44,7 @@ fem::Material elastic_material(const Performance& p) {
 }
 
 FiniteTissue::FiniteTissue(const Performance& p)
-    : assembler_(p.nodes, p.tets, p.model.element),
+    : assembler_(grown(fem::Assembler(p.nodes, p.tets, p.model.element), p)),
       form_(assembler_, elastic_material(p), without_branches(p.model.law)) {}
 
 FiniteState FiniteTissue::at(const Points& d) const {

@@ -10,6 +10,9 @@ namespace hyperex::metrics {
 /// The material of a performance's tissue for computing elastic stress: without mass and viscosity.
 fem::Material elastic_material(const simulate::Performance& performance);
 
+/// Takes growth off a strain of displacement: what is left makes stress.
+void take_growth_off(const simulate::Performance& performance, fem::VoigtRows& strain);
+
 /// The state at one displacement, one value per tetrahedron.
 struct FiniteState {
   fem::VoigtRows green_lagrange;  ///< engineering shear

@@ -90,7 +90,8 @@ PeakTissue peak_tissue(const Performance& p) {
     out.principal_stretch = spread_of_sound(state.stretch.col(2), inverted);
     out.volume_ratio = spread_of_sound(state.volume_ratio, inverted);
   } else {
-    const fem::VoigtRows strain = fem::ElementStrain(p.nodes, p.tets).at(d);
+    fem::VoigtRows strain = fem::ElementStrain(p.nodes, p.tets).at(d);
+    take_growth_off(p, strain);
     out.von_mises_kpa = spread_of(1e-3 * fem::von_mises_pa(strain, elastic_material(p)), inverted);
     out.principal_strain = spread_of(greatest_principal(strain), inverted);
   }

@@ -94,8 +94,11 @@ class Shapes {
   }
 
  private:
-  const PointsF& skin(const std::string& pose) const {
-    return performance_.skin_displacement_m.at(frame_.at(pose));
+  /// From the face at rest, which added volume may have changed.
+  PointsF skin(const std::string& pose) const {
+    const PointsF& moved = performance_.skin_displacement_m.at(frame_.at(pose));
+    const PointsF& rest = performance_.neutral_displacement_m;
+    return rest.rows() > 0 ? PointsF(moved - rest) : moved;
   }
   const simulate::Performance& performance_;
   std::map<std::string, std::size_t> frame_;

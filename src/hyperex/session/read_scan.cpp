@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/kept.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -42,20 +43,19 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
   const std::string source = scene.scan.source.embedded     ? "embedded face"
                              : scene.scan.landmarks.empty() ? scan.file.string()
                                                             : scene.scan.landmarks.string();
-  auto completed = completed_landmarks(given, scan, source, scene.kept);
-  in.landmarks = std::move(completed.landmarks);
-  in.placed = std::move(completed.placed);
   const auto in_midline = [](const auto& landmark) {
     return anatomy::mirrored_landmark(landmark.first) == landmark.first;
   };
   if (!given.empty() && std::ranges::all_of(given, in_midline))
-    in.notes.push_back(make_warning(
-        "landmarks.midline_alone",
-        fmt::format("the {} landmarks given lie all in the midline, which places those of either "
-                    "side badly; expected some of either side, as corners of eyes and mouth, or no "
-                    "landmarks: they are then found on the scan",
-                    given.size()),
-        "scan.landmarks"));
+    throw InputError(
+        source,
+        fmt::format("its {} landmarks all lie in the midline of the face; expected some of either "
+                    "side, as corners of eyes and mouth, or none given: they are then found on the "
+                    "scan",
+                    given.size()));
+  auto completed = completed_landmarks(given, scan, source, scene.kept);
+  in.landmarks = std::move(completed.landmarks);
+  in.placed = std::move(completed.placed);
   if (!in.placed.empty())
     in.notes.push_back(make_note(
         "landmarks.placed",

@@ -36,8 +36,8 @@ struct Performance {
   std::vector<int> source_triangle;  ///< per skin triangle: the scan's triangle that it is part of
   std::vector<double> frame_time_s;
   std::vector<PointsF> skin_displacement_m;  ///< per frame, |skin_rest| x 3
-  /// Where surgery moved bones: displacement of the skin at rest afterwards (|skin_rest| x 3); all
-  /// displacements contain it. Otherwise no rows.
+  /// Where surgery moved bones or added volume: displacement of the skin at rest afterwards
+  /// (|skin_rest| x 3); all displacements contain it. Otherwise no rows.
   PointsF neutral_displacement_m;
   /// Where surgery put the upper teeth; jaw_now_from_rest has the lower ones.
   Eigen::Isometry3d upper_teeth_now_from_rest = Eigen::Isometry3d::Identity();
@@ -51,6 +51,8 @@ struct Performance {
   std::vector<PointsF> node_displacement_m;  ///< per frame, |nodes| x 3
   fem::Material material;                    ///< one value per tetrahedron
   ModelOptions model;                        ///< gives strain and stress from the displacement
+  /// Growth tensor of each tetrahedron (fem::Assembler::grown), where volume was added; else empty.
+  std::vector<Eigen::Matrix3d> growth;
 
   /// Landmarks of the scan, which move with the skin, at the frame times.
   motion::Motion landmarks;

@@ -70,14 +70,16 @@ const std::vector<OptionCase>& model_cases() {
 
 const std::vector<OptionCase>& tissue_cases() {
   static const std::vector<OptionCase> cases = {
-      {"tissue.uniform", {"tissue"}, [](Options& o) { o.tissue.uniform[tissue::young] *= 3; }},
+      {"tissue.uniform",
+       {"tissue (not its volume)"},
+       [](Options& o) { o.tissue.uniform[tissue::young] *= 3; }},
       {"tissue.uniform.density",
-       {"tissue"},
+       {"tissue (not its volume)"},
        [](Options& o) { o.tissue.uniform[tissue::density] *= 3; }},
       {"tissue.uniform.viscosity",
-       {"tissue"},
+       {"tissue (not its volume)"},
        [](Options& o) { o.tissue.uniform[tissue::viscosity] *= 30; }},
-      {"tissue.uniform.poisson", {"tissue"}, [](Options& o) {
+      {"tissue.uniform.poisson", {"tissue (not its volume)"}, [](Options& o) {
          o.tissue.uniform[tissue::poisson] = 0.3;
        }}};
   return cases;

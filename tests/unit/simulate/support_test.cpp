@@ -102,6 +102,26 @@ TriMesh inner_over(const tissue::TissueMesh& mesh, const std::vector<Bone>& unde
   return {mesh.volume.nodes.bottomRows(mesh.volume.surface_nodes()), all(kept, Eigen::all)};
 }
 
+TEST(BonesUnder, HoldTheCartilageOfTheNoseThatNoCtShows) {
+  test::SmallFace face = test::small_face();
+  const auto estimated = bones_under(face.mesh, face.landmarks);
+  // A skull without a nose: only what lies above the eyes' line, far from it.
+  TriMesh skull = inner_over(face.mesh, estimated, Bone::skull);
+  const double nasion = face.landmarks.at(ibug(27)).y();
+  std::vector<int> kept;
+  for (Eigen::Index t = 0; t < skull.triangles.rows(); ++t)
+    if (skull.points(skull.triangles(t, 0), 1) > nasion) kept.push_back(int(t));
+  skull.triangles = skull.triangles(kept, Eigen::all).eval();
+  face.mesh.bones = std::make_shared<const anatomy::Bones>(skull, TriMesh{});
+  const auto given = bones_under(face.mesh, face.landmarks);
+  const auto at = [&](const Vec3& p) { return given[nearest_vertex(face.mesh.skin.points, p)]; };
+  EXPECT_EQ(at(face.landmarks.at(ibug(30))), Bone::skull) << "the tip";
+  EXPECT_EQ(at(face.landmarks.at(ibug(29))), Bone::skull);
+  EXPECT_EQ(at(face.landmarks.at(ibug(28))), Bone::none) << "bone, which is missing here";
+  EXPECT_EQ(at(face.landmarks.at(ibug(51))), Bone::none) << "the lip";
+  EXPECT_EQ(at(face.landmarks.at(ibug(2))), Bone::none) << "the cheek";
+}
+
 TEST(BonesUnder, AreThoseThatAreGivenWhereTissueIsAttached) {
   test::SmallFace face = test::small_face();
   const auto estimated = bones_under(face.mesh, face.landmarks);

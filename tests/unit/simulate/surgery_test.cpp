@@ -8,6 +8,7 @@
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/fem/element/tet4.hpp"
+#include "hyperex/metrics/peak_tissue.hpp"
 #include "hyperex/metrics/soft_tissue_moves.hpp"
 #include "hyperex/simulate/drive/osteotomy.hpp"
 #include "hyperex/simulate/load/added_volume.hpp"
@@ -230,6 +231,9 @@ TEST_F(Surgery, TheCartilageOfTheNoseBendsWithTheMaxilla) {
   EXPECT_LT((moved(0, (cut + bone) / 2) - 5.0 / 16 * Vec3(0.001, 0, 0.005)).norm(), 1e-9);
   EXPECT_LT((moved(wings / 2, (cut + bone) / 2) - 5.0 / 32 * Vec3(0.001, 0, 0.005)).norm(), 1e-9);
   EXPECT_EQ(moved(1.01 * wings, (cut + bone) / 2).norm(), 0);
+  const double behind = frame_.local(JawHinge(face_.landmarks, nullptr).centre).z();
+  const Vec3 back = frame_.world({0, (cut + bone) / 2, behind});
+  EXPECT_EQ(cuts.displacement_of_skull(back).norm(), 0) << "no cartilage";
 }
 
 TEST_F(Surgery, TheTipOfTheNoseFollowsTheMaxillaALittle) {
@@ -322,6 +326,45 @@ TEST_F(AddedVolume, IsRefusedWhereDrivenPointsWouldStayBehind) {
   EXPECT_THAT(hyperex::test::refusal([&] { check(options_); }),
               testing::AllOf(testing::HasSubstr("tissue.region"),
                              testing::HasSubstr("drive.by = muscles")));
+}
+
+TEST_F(AddedVolume, MakesNoStressWhereItIsFree) {
+  Performance free;
+  free.nodes = mesh_->volume.nodes;
+  free.tets = mesh_->volume.tets;
+  free.material = options_.tissue.material(std::size_t(free.tets.rows()), {});
+  Eigen::Matrix3d growth = Eigen::Matrix3d::Identity();
+  growth(0, 0) = 1.02, growth(1, 2) = growth(2, 1) = 0.01;
+  free.growth.assign(std::size_t(free.tets.rows()), growth);
+  free.node_displacement_m = {(free.nodes * (growth - Eigen::Matrix3d::Identity())).cast<float>()};
+  for (const Strain strain : {Strain::linear, Strain::finite}) {
+    free.model.strain = strain;
+    const metrics::PeakTissue tissue = metrics::peak_tissue(free);
+    EXPECT_LT(tissue.von_mises_kpa->p99, 0.02) << "of 192 kPa";
+    EXPECT_LT(std::abs(tissue.principal_strain->p99), 1e-4);
+    if (tissue.finite) {
+      EXPECT_NEAR(tissue.volume_ratio->median, 1, 1e-5);
+    }
+    free.growth.clear();
+    EXPECT_GT(metrics::peak_tissue(free).von_mises_kpa->p99, 1);
+    free.growth.assign(std::size_t(free.tets.rows()), growth);
+  }
+}
+
+TEST_F(AddedVolume, ReachesTheFiguresOfTheTissue) {
+  const Performance after = with_volume().performance;
+  ASSERT_EQ(after.growth.size(), ratio_.size());
+  EXPECT_NEAR(after.growth[11].determinant(), ratio_[11], 1e-12);
+  EXPECT_TRUE(made({}).run().performance.growth.empty());
+}
+
+TEST_F(AddedVolume, ChangesNoForceThatWasFound) {
+  Simulator simulator = made({});
+  simulator.run();
+  TissueValues more = options_.tissue;
+  more.volume_ratio = ratio_;
+  simulator.set_tissue(more);
+  EXPECT_FALSE(simulator.run().report.forces_found_anew);
 }
 
 }  // namespace

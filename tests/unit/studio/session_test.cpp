@@ -238,6 +238,17 @@ TEST_F(StudioSession, MusclesMoveASceneThatSaysDisplacementAgainAndAgain) {
   EXPECT_EQ(event("scene")->head["drive"], "muscles");
 }
 
+TEST_F(StudioSession, MusclesMoveASceneToWhichVolumeIsAdded) {
+  open();
+  set({{"drive.by", "displacement"}}, 0);
+  const json soft = {{{"name", "cheek_L"}, {"young_factor", 2}}};
+  EXPECT_FALSE(set({{"tissue.region", soft}}, 0).contains("error"));
+  EXPECT_EQ(event("scene")->head["drive"], "displacement");
+  const json filled = {{{"name", "cheek_L"}, {"volume_ml", 2}}};
+  EXPECT_FALSE(set({{"tissue.region", filled}}, 0).contains("error"));
+  EXPECT_EQ(event("scene")->head["drive"], "muscles");
+}
+
 TEST_F(StudioSession, WhatAFirstVariantNeedsIsMadeAheadAndChangesNoNumber) {
   std::ofstream(folder_.path() / "own" / "uploads" / "mouth.toml")
       << "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n";

@@ -392,6 +392,48 @@ TEST_F(Field, RefusesVolumeThatTheTissueCannotTake) {
   EXPECT_THAT(problems[0].expected, HasSubstr("volume_ml = 2"));
 }
 
+TEST_F(Field, VolumesOfAllRegionsCountTogether) {
+  TissueFieldOptions options;
+  options.regions = {{.name = "cheek_L", .volume_m3 = 1.4e-5},
+                     {.name = "cheek_L", .volume_m3 = 1.5e-5}};
+  EXPECT_THAT(refusal(options),
+              testing::AllOf(HasSubstr("region[1].volume_ml"), HasSubstr("all regions together"),
+                             HasSubstr("alone takes up to")));
+  options.regions = {{.name = "cheek_L", .volume_m3 = 2.6e-5},
+                     {.name = "cheek_L", .volume_m3 = -1e-5}};
+  EXPECT_NEAR(maker_->make(options).added_volume_m3, 1.6e-5, 1e-12);
+}
+
+TEST_F(Field, EachSideTakesTheVolumeThatIsMirrored) {
+  TissueFieldOptions options;
+  options.regions = {{.name = "cheek_L", .volume_m3 = 2e-6}};
+  const double one = at(maker_->make(options).skin_volume_ratio, landmarks_->at("cheek_L"));
+  options.mirror = true;
+  const TissueField both = maker_->make(options);
+  EXPECT_NEAR(both.added_volume_m3, 4e-6, 1e-15);
+  EXPECT_NEAR(at(both.skin_volume_ratio, landmarks_->at("cheek_L")), one, 0.1 * (one - 1));
+  EXPECT_NEAR(at(both.skin_volume_ratio, landmarks_->at("cheek_R")), one, 0.1 * (one - 1));
+}
+
+TEST_F(Field, RefusesVolumeWhereNoTissueIs) {
+  const auto csv = test_file("one_vertex.csv");
+  std::ofstream table(csv);
+  table << "weight\n";
+  Eigen::Index nose = 0;
+  (mesh_->skin.points.topRows(mesh_->scan_vertices).rowwise() -
+   landmarks_->at("pronasale").transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nose);
+  for (Eigen::Index v = 0; v < mesh_->scan_vertices; ++v) table << (v == nose) << "\n";
+  table.close();
+  TissueFieldOptions options;
+  options.regions = {{.painted = csv, .volume_m3 = 1e-9}};
+  const std::string message = refusal(options);
+  EXPECT_TRUE(message.empty() || message.find("region[0].volume_ml") != std::string::npos)
+      << message;
+}
+
 TEST(PaintedLips, PaintOfOneLipDoesNotRunOverToTheOther) {
   io::Landmarks landmarks;
   const TriMesh& closed = canonical_face().mesh;

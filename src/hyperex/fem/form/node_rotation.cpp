@@ -20,9 +20,10 @@ Eigen::Matrix3d node_rotation(const Assembler& assembler, const Eigen::VectorXd&
     const auto& corner = assembler.corners()[std::size_t(t)];
     for (int a = 0; a < 4; ++a)
       mean += shape.volume * d.segment<3>(3 * corner[std::size_t(a)]) * shape.gradient.row(a);
+    mean += shape.volume * assembler.gradient_of_mesh(t);
     volume += shape.volume;
   }
-  mean = mean / volume + Eigen::Matrix3d::Identity();
+  mean /= volume;
   if (!(mean.determinant() > 0)) return last;
   for (int k = 0; k < kMostPolarSteps; ++k) {
     const Eigen::Matrix3d next = 0.5 * (mean + mean.inverse().transpose());

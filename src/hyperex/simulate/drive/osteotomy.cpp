@@ -113,13 +113,16 @@ Vec3 Osteotomies::displacement_of_skull(const Vec3& at) const {
     return move.segment.part == BonePart::maxilla;
   });
   if (cut == moves_.end()) return by;
-  const double height = frame_.y.dot(at - cut->segment.plane_at),
-               clamped = frame_.y.dot(clamped_at_ - cut->segment.plane_at),
+  const BoneSegment& maxilla = cut->segment;
+  const double height = frame_.y.dot(at - maxilla.plane_at),
+               clamped = frame_.y.dot(clamped_at_ - maxilla.plane_at),
                aside = frame_.local(at).x() / half_nose_m_;
   if (height <= 0 || height >= clamped || std::abs(aside) >= 1) return by;
+  if (maxilla.ends_at && frame_.z.dot(at - *maxilla.ends_at) <= 0) return by;
   const double s = 1 - height / clamped;
   const double share = (3 * s * s - s * s * s) / 2 * (1 - std::abs(aside));
-  const Vec3 of_maxilla = upper_teeth() * at - at - by, &across = cut->segment.plane_normal;
+  const Vec3 foot = at - height * frame_.y, &across = maxilla.plane_normal;
+  const Vec3 of_maxilla = upper_teeth() * foot - cranium() * foot;
   return by + share * (of_maxilla - of_maxilla.dot(across) * across);
 }
 

@@ -29,6 +29,10 @@ class BoneMap {
     nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
     ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
     lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
+    const auto local = [&](int k) { return frame_.local(landmarks.at(face::ibug(k))); };
+    nasal_bones_end_ = 0.5 * (local(28) + local(29)).y();
+    half_nose_ = 0.5 * std::abs(local(31).x() - local(35).x());
+    wings_ = 0.5 * (local(31) + local(35)).z();
     const auto* own = bones && bones->condyles() ? &*bones->condyles() : nullptr;
     ramus_z_ = own ? frame_.local(0.5 * ((*own)[0] + (*own)[1])).z() + ramus_m
                    : 0.5 * (jaw_line_[1] + jaw_line_[15]).z() + ramus_estimated_m;
@@ -41,6 +45,13 @@ class BoneMap {
       return q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
     return p.y() < lower_lip_ - jaw_below_lip_m && q.z() > ramus_z_ &&
            distance_to_lips(p) >= jaw_off_lips_m;
+  }
+
+  /// Whether the tissue of a node covers the cartilage of the nose.
+  bool on_cartilage(const Vec3& inner, const Vec3& outer) const {
+    const Vec3 q = frame_.local(inner), p = frame_.local(outer);
+    return std::abs(p.x()) < half_nose_ && p.z() > wings_ && p.y() < nasal_bones_end_ &&
+           q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
@@ -104,6 +115,7 @@ class BoneMap {
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
   double lower_lip_ = 0, ramus_z_ = 0;
+  double nasal_bones_end_ = 0, half_nose_ = 0, wings_ = 0;
 };
 
 }  // namespace
@@ -119,7 +131,8 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
       continue;
     }
     const Bone bone = mesh.bones->nearest(inner, attached_m).bone;
-    if (bone != Bone::none && map.attached(bone, inner, outer)) bones[v] = bone;
+    if (bone != Bone::none ? map.attached(bone, inner, outer) : map.on_cartilage(inner, outer))
+      bones[v] = bone == Bone::none ? Bone::skull : bone;
   }
   return bones;
 }

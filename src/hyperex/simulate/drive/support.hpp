@@ -17,6 +17,8 @@ using anatomy::Bone;
 ///    glides on the masseter: less than 35 mm in front of the condyles, or 15 mm in front of the
 ///    estimated ones;
 ///  * within 8 mm (skull) or 6 mm (mandible) of the lips.
+/// Tissue over the cartilage of the nose counts as over the skull, to which it belongs: below the
+/// middle of the bridge (ibug68_28 and 29), in front of and between the wings (ibug68_31 and 35).
 ///
 /// Otherwise it is estimated from landmarks:
 ///  * skull: above the line from the base of the nose (ibug68_33) back to below the ears (mean of

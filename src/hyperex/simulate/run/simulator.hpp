@@ -111,18 +111,19 @@ struct EliminationOrder {
 ///   driven skin               motion, measured region, drive (not its gain)
 ///   boundary                  motion, driven skin, drive.by, support, muscles (not their gains)
 ///   moved bones               boundary, surgery
-///   matrix values             boundary, drive.by, tissue, model, muscles (not their gains)
+///   matrix values             boundary, drive.by, tissue (not its volume), model, muscles (not
+///                             their gains)
 ///   pattern                   model.element
-///   added volume              pattern, matrix values
+///   added volume              pattern, matrix values, tissue.volume_ratio
 ///   prescribed unknowns       boundary
 ///   order                     pattern, prescribed unknowns
-///   muscle model              pattern, order, drive.by, support, tissue, model, muscles (not their
-///                             gains)
+///   muscle model              pattern, order, drive.by, support, tissue (not its volume), model,
+///                             muscles (not their gains)
 ///   load was found            motion, measured region, drive (not its gain), drive.gain, muscles
 ///                             (not their gains), steps of reactions
 ///   load                      motion, measured region, drive (not its gain), drive.gain, muscles
 ///                             (not their gains), steps of reactions; unless held driven skin,
-///                             muscle model, pattern, support, tissue, model
+///                             muscle model, pattern, support, tissue (not its volume), model
 ///   input                     motion, boundary, moved bones, load, drive.gain, muscles.gain,
 ///                             muscles (not their gains), time.step_s, time.end_s,
 ///                             solver.tolerance

@@ -13,6 +13,14 @@
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
+namespace {
+
+TissueValues without_volume(TissueValues tissue) {
+  tissue.volume_ratio.clear();
+  return tissue;
+}
+
+}  // namespace
 
 double Simulator::Impl::end_s() const {
   const auto& times = motion->motion.time_s;
@@ -65,8 +73,8 @@ void Simulator::Impl::ensure_boundary() {
   stages.prescribed.set(stages.boundary->prescribed());
   stages.values.ensure([&] {
     return std::make_shared<const MatrixValues>(
-        MatrixValues{options.tissue, options.model, options.drive.by, as_recorded(options.muscles),
-                     stages.boundary.pointer()});
+        MatrixValues{without_volume(options.tissue), options.model, options.drive.by,
+                     as_recorded(options.muscles), stages.boundary.pointer()});
   });
 }
 

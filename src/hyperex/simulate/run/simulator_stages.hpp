@@ -24,7 +24,7 @@ namespace hyperex::simulate {
 
 /// What the values of the matrices are computed from, besides their patterns.
 struct MatrixValues {
-  TissueValues tissue;
+  TissueValues tissue;  ///< without the volume, which changes no matrix
   ModelOptions model;
   DriveBy by;
   MuscleOptions muscles;  ///< as recorded
@@ -124,7 +124,10 @@ struct SimulatorStages : StageGraph {
   OptionSource support{*this, "support", [](const O& o) { return o.support; }};
   OptionSource element{*this, "model.element", [](const O& o) { return o.model.element; }};
   OptionSource model{*this, "model", [](const O& o) { return o.model; }};
-  OptionSource tissue{*this, "tissue", [](const O& o) { return o.tissue; }};
+  OptionSource tissue{*this, "tissue (not its volume)",
+                      [](const O& o) { return std::tie(o.tissue.uniform, o.tissue.element); }};
+  OptionSource volume{*this, "tissue.volume_ratio",
+                      [](const O& o) { return std::tie(o.tissue.volume_ratio); }};
   OptionSource contact{*this, "contact", [](const O& o) { return o.contact; }};
   OptionSource surgery{*this, "surgery", [](const O& o) { return o.surgery; }};
   OptionSource bodies{*this, "contact.teeth or eyes",
@@ -155,7 +158,7 @@ struct SimulatorStages : StageGraph {
   Cached<MovedBones> moved_bones{*this, "moved bones", {boundary, surgery}};
   Cached<MatrixValues> values{*this, "matrix values", {boundary, drive_by, tissue, model, muscles}};
   Cached<fem::Assembler> pattern{*this, "pattern", {element}};
-  Cached<AddedVolume> added_volume{*this, "added volume", {pattern, values}};
+  Cached<AddedVolume> added_volume{*this, "added volume", {pattern, values, volume}};
   Checked<std::vector<int>> prescribed{*this, "prescribed unknowns", {boundary}};
   Cached<EliminationOrder> order{*this, "order", {pattern, prescribed}};
   Cached<MuscleModel> muscle_model{

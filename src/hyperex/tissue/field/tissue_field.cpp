@@ -55,6 +55,44 @@ double volume_of(const VolumeMesh& mesh, Eigen::Index t) {
   return edge(1).cross(edge(2)).dot(edge(3)) / 6;
 }
 
+/// Whether mirror makes this region of both sides.
+bool has_two_sides(const TissueFieldOptions& options, const TissueRegion& region) {
+  if (!options.mirror) return false;
+  if (!region.name.empty()) return region.name.ends_with("_L") || region.name.ends_with("_R");
+  return std::ranges::any_of(region.scar, [](const std::string& landmark) {
+    return anatomy::mirrored_landmark(landmark) != landmark;
+  });
+}
+
+struct VolumeOfRegion {
+  std::size_t region;
+  double m3 = 0, held_m3 = 0, greatest_share = 0;
+  /// The change of volume of the tissue that takes most of it.
+  double greatest() const { return m3 / held_m3 * greatest_share; }
+};
+
+/// Names the region that changes its tissue most.
+void refuse_extreme_volumes(const TissueFieldOptions& options,
+                            const std::vector<VolumeOfRegion>& given,
+                            const std::vector<double>& ratio) {
+  const auto [least, most] = std::ranges::minmax(ratio);
+  if (least >= kLeastVolumeRatio && most <= kMostVolumeRatio) return;
+  const bool grows = most > kMostVolumeRatio;
+  const VolumeOfRegion& worst = *std::ranges::max_element(
+      given, {}, [&](const auto& one) { return grows ? one.greatest() : -one.greatest(); });
+  const TissueRegion& region = options.regions[worst.region];
+  const double limit = std::abs((grows ? kMostVolumeRatio : kLeastVolumeRatio) - 1);
+  const double alone_ml =
+      std::floor(1e7 * std::abs(region.volume_m3) * limit / std::abs(worst.greatest())) / 10;
+  throw FieldError(
+      {fmt::format("region[{}].volume_ml", worst.region),
+       fmt::format(
+           "volumes with which no part of the tissue takes less than {:g} or more than {:g} "
+           "times its volume, all regions together; this region alone takes {}{:.1f} ml",
+           kLeastVolumeRatio, kMostVolumeRatio, grows ? "up to " : "down to -", alone_ml),
+       fmt::format("{:g}", 1e6 * region.volume_m3)});
+}
+
 std::string key_of(const ResolvedPoint& point) {
   return point.key == "preset" ? point.key : point.key + ".landmark";
 }
@@ -330,28 +368,30 @@ void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size
 void TissueFieldMaker::add_volumes(const TissueFieldOptions& options, TissueField& field) const {
   field.skin_volume_ratio = Eigen::VectorXd::Ones(mesh_.skin.points.rows());
   field.volume_ratio.assign(above_.size(), 1);
-  const VolumeMesh& volume = mesh_.volume;
+  std::vector<VolumeOfRegion> given;
   for (std::size_t i = 0; i < options.regions.size(); ++i) {
-    const double volume_m3 = options.regions[i].volume_m3;
-    if (volume_m3 == 0) continue;
+    const TissueRegion& region = options.regions[i];
+    if (region.volume_m3 == 0) continue;
     const Eigen::VectorXd shares = region_shares(options, i);
-    double held = 0;
-    for (std::size_t t = 0; t < above_.size(); ++t)
-      held += above_[t].value(shares) * volume_of(volume, Eigen::Index(t));
-    const double growth = volume_m3 / held;
+    VolumeOfRegion one{.region = i,
+                       .m3 = (has_two_sides(options, region) ? 2 : 1) * region.volume_m3};
+    for (std::size_t t = 0; t < above_.size(); ++t) {
+      const double share = above_[t].value(shares);
+      one.held_m3 += share * volume_of(mesh_.volume, Eigen::Index(t));
+      one.greatest_share = std::max(one.greatest_share, share);
+    }
+    if (!(one.held_m3 > 0))
+      throw FieldError({fmt::format("region[{}].volume_ml", i),
+                        "a region that holds tissue; it is smaller than the elements there",
+                        fmt::format("{:g}", 1e6 * region.volume_m3)});
+    field.added_volume_m3 += one.m3;
+    const double growth = one.m3 / one.held_m3;
     field.skin_volume_ratio += growth * shares;
     for (std::size_t t = 0; t < above_.size(); ++t)
       field.volume_ratio[t] += growth * above_[t].value(shares);
-    const auto [least, most] = std::ranges::minmax(field.volume_ratio);
-    if (least < kLeastVolumeRatio || most > kMostVolumeRatio)
-      throw FieldError(
-          {fmt::format("region[{}].volume_ml", i),
-           fmt::format("{:.2g} to {:.2g} for the {:.3g} ml of tissue of this region, so that no "
-                       "part of it takes less than {:g} or more than {:g} times its volume",
-                       1e6 * held * (kLeastVolumeRatio - 1), 1e6 * held * (kMostVolumeRatio - 1),
-                       1e6 * held, kLeastVolumeRatio, kMostVolumeRatio),
-           fmt::format("{:g}", 1e6 * volume_m3)});
+    given.push_back(one);
   }
+  refuse_extreme_volumes(options, given, field.volume_ratio);
 }
 
 }  // namespace hyperex::tissue

@@ -31,6 +31,7 @@ struct TissueField {
   /// Empty: 1.
   Eigen::VectorXd skin_volume_ratio;
   std::vector<double> volume_ratio;
+  double added_volume_m3 = 0;  ///< of all regions, both sides
 
   bool varies(int parameter) const {
     return skin[parameter].size() > 0 &&
@@ -59,9 +60,9 @@ std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMes
 ///   3. The file per vertex replaces it where it has values.
 ///   4. Regions in turn: u <- u (1 + w (factor - 1)), or u <- u + w (value - u), w the region's
 ///      share at the vertex.
-///   5. The volume that a region adds is shared out by w: a tetrahedron's volume grows by the
-///   factor
-///      1 + volume w / (sum over all of w V), V its volume.
+///   5. The volume that a region adds is shared out by w: a tetrahedron of volume V grows to
+///      V (1 + volume w / sum over all of w V). Where mirror makes two sides of a region, each
+///      takes the volume.
 ///   6. A tetrahedron takes the field at the point of the skin above its centroid: constant through
 ///      the thickness.
 class TissueFieldMaker {
