@@ -448,6 +448,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     const [, shows, most] = /^2 ml added, ([\d.]+) ml show at the skin, which moves by up to ([\d.]+) mm$/.exec(await says.textContent());
     assert.ok(shows > 1 && shows < 2.5 && most > 0.2 && most < 10, `${shows} ml, ${most} mm`);
     assert.deepEqual(await faces(page), ['Base', 'cheek, right: 2 ml added']);
+    await volume.blur();
     await page.keyboard.press('Control+z');
     await page.waitForFunction(() => !/volume_ml/.test(document.getElementById('scene-text').textContent));
     await settled(page);
