@@ -187,10 +187,17 @@ TEST_F(Ct, ARunMovesTheSkinThatItWrote) {
   const fs::path zip = fs::path(HYPEREX_SHARED_DIR) / "data/ct/phantom_head.zip";
   if (!fs::exists(zip)) GTEST_SKIP() << "needs " << zip;
   ASSERT_EQ(call("ct " + zip.string() + " --out ct").status, 0);
-  put(in("next.toml"),
-      "scan = { file = \"ct/skin.ply\", unit = \"mm\", landmarks = \"ct/landmarks.json\" }\n"
-      "motion = { file = \"embedded\" }\nmesh = { element_size_mm = 9 }\n"
-      "time = { end_s = 0.3 }\n");
+  const auto scene = [&](const char* landmarks) {
+    put(in("next.toml"), "scan = { file = \"ct/skin.ply\", unit = \"mm\"" + std::string(landmarks) +
+                             " }\nmotion = { file = \"embedded\" }\nanatomy = { ct = \"ct\" }\n"
+                             "mesh = { element_size_mm = 9 }\ntime = { end_s = 0.3 }\n");
+  };
+  scene(", landmarks = \"ct/landmarks.json\"");
+  const Outcome refused = call("run next.toml --out out --no-cache");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, testing::HasSubstr("landmarks all lie in the midline of the face"));
+  EXPECT_FALSE(fs::exists(in("out")));
+  scene("");
   const Outcome moved = call("run next.toml --out out --no-cache");
   ASSERT_EQ(moved.status, 0) << moved.err;
   EXPECT_GT(double(summary()["max_displacement_mm"]), 0.5);
