@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/kept.hpp"
@@ -43,16 +44,17 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
   const std::string source = scene.scan.source.embedded     ? "embedded face"
                              : scene.scan.landmarks.empty() ? scan.file.string()
                                                             : scene.scan.landmarks.string();
-  const auto in_midline = [](const auto& landmark) {
-    return anatomy::mirrored_landmark(landmark.first) == landmark.first;
+  const std::vector<std::string> known = anatomy::known_landmarks(given).names;
+  const auto in_midline = [](const std::string& name) {
+    return anatomy::mirrored_landmark(name) == name;
   };
-  if (!given.empty() && std::ranges::all_of(given, in_midline))
+  if (!known.empty() && std::ranges::all_of(known, in_midline))
     throw InputError(
         source,
         fmt::format("its {} landmarks all lie in the midline of the face; expected some of either "
                     "side, as corners of eyes and mouth, or none given: they are then found on the "
                     "scan",
-                    given.size()));
+                    known.size()));
   auto completed = completed_landmarks(given, scan, source, scene.kept);
   in.landmarks = std::move(completed.landmarks);
   in.placed = std::move(completed.placed);
