@@ -22,6 +22,11 @@ class Surgery : public ProgramTest {
         << more << "[[variant]]\nname = \"advancement\"\n"
         << variant << '\n';
   }
+  /// What the variant of an output folder's summary does to the face at rest.
+  nlohmann::json surgery_in(const std::string& folder) const {
+    return nlohmann::json::parse(
+        read_file(in(folder + "/summary.json")))["variants"]["table"][1]["surgery"];
+  }
 };
 
 TEST_F(Surgery, WritesMillimetresAndPicturesOfTheFaceAfterwards) {
@@ -80,8 +85,7 @@ TEST_F(Surgery, AddsVolumeUnderAPlaceOfTheSkin) {
                                "advancement, at rest: 2 ml added, of which [0-9.]+ ml show at "
                                "the skin; it moves by up to [0-9.]+ mm"));
   EXPECT_TRUE(std::filesystem::exists(in("out/variants/advancement/surgery.png")));
-  const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
-  const auto& surgery = summary["variants"]["table"][1]["surgery"];
+  const auto surgery = surgery_in("out");
   EXPECT_EQ(surgery["added_volume_ml"], 2);
   EXPECT_GT(surgery["skin_volume_change_ml"], 1.4);
   EXPECT_LT(surgery["skin_volume_change_ml"], 2.3);
@@ -104,11 +108,7 @@ TEST_F(Surgery, TellsBonesAndVolumeApart) {
   const Outcome both = call("run scene.toml --out out");
   ASSERT_EQ(both.status, 0) << both.err;
   EXPECT_THAT(both.out, testing::ContainsRegex("at rest: chin [0-9.]+ mm, .*, 2 ml added\n"));
-  const auto of = [&](const char* out) {
-    return nlohmann::json::parse(
-        read_file(in(out) / "summary.json"))["variants"]["table"][1]["surgery"];
-  };
-  for (const auto& one : of("out")["landmarks"])
+  for (const auto& one : surgery_in("out")["landmarks"])
     EXPECT_FALSE(one.contains("published")) << "not of bones alone";
 
   // The same volume elsewhere, and another stiffness there.
@@ -118,7 +118,7 @@ TEST_F(Surgery, TellsBonesAndVolumeApart) {
   const Outcome elsewhere = call("run scene.toml --out elsewhere");
   ASSERT_EQ(elsewhere.status, 0) << elsewhere.err;
   EXPECT_THAT(elsewhere.out, testing::HasSubstr("at rest: volume is elsewhere; the skin moves"));
-  EXPECT_NEAR(of("elsewhere")["added_volume_ml"].get<double>(), 0, 1e-9);
+  EXPECT_NEAR(surgery_in("elsewhere")["added_volume_ml"].get<double>(), 0, 1e-9);
 }
 
 TEST_F(Surgery, IsRefusedInOneSentence) {

@@ -17,9 +17,9 @@ const keys = ['tissue.young_kpa', 'tissue.viscosity_pa_s', 'tissue.poisson', 'ti
 const thickness = 'mesh.thickness_mm';
 const regions = 'tissue.region';
 type Row = Record<string, unknown>;
-/** What one part of the face may differ in, and the value that stands for no difference. */
-const without = { young_factor: 1, volume_ml: 0 };
-type PartKey = keyof typeof without;
+/** The keys of a region that this panel sets, each with the value at which it changes nothing. */
+const neutral = { young_factor: 1, volume_ml: 0 };
+type PartKey = keyof typeof neutral;
 
 const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
@@ -117,12 +117,12 @@ export class TissuePanel implements RemarkPanel {
 
   /** Of the chosen part. */
   private valueIn(value: unknown, key: PartKey): number {
-    return Number(this.rows(value).find((row) => row.name === this.part.value)?.[key] ?? without[key]);
+    return Number(this.rows(value).find((row) => row.name === this.part.value)?.[key] ?? neutral[key]);
   }
 
   /** What resetting goes back to. */
   private before(key: PartKey): number {
-    return this.state.edited === 0 ? without[key] : this.valueIn(this.state.valuesOf(0)[regions], key);
+    return this.state.edited === 0 ? neutral[key] : this.valueIn(this.state.valuesOf(0)[regions], key);
   }
 
   /** Keeps the scene's other rows; sets the value in the row of this part, and removes the row when it is empty. */
@@ -131,7 +131,7 @@ export class TissuePanel implements RemarkPanel {
     const rows = this.rows(this.edits.value(regions));
     const at = rows.findIndex((row) => row.name === name);
     const { [key]: _before, ...rest } = rows[at] ?? { name };
-    const next = value === without[key] ? rest : { ...rest, [key]: value };
+    const next = value === neutral[key] ? rest : { ...rest, [key]: value };
     const kept = Object.keys(next).length > 1 ? [next] : [];
     return at < 0 ? [...rows, ...kept] : [...rows.slice(0, at), ...kept, ...rows.slice(at + 1)];
   }

@@ -74,12 +74,8 @@ std::vector<BoneSegment> usual_segments(const io::Landmarks& landmarks,
 
 Osteotomies::Osteotomies(const std::vector<BoneMove>& moves, const io::Landmarks& landmarks,
                          const anatomy::Bones* bones)
-    : frame_(face::face_frame(landmarks)) {
+    : frame_(face::face_frame(landmarks)), nose_(landmarks, frame_) {
   const Vec3 condyles = JawHinge(landmarks, bones).centre;
-  clamped_at_ = (landmarks.at(ibug(28)) + landmarks.at(ibug(29))) / 2;
-  const Vec3 left = frame_.local(landmarks.at(ibug(35))),
-             right = frame_.local(landmarks.at(ibug(31)));
-  half_nose_m_ = std::abs(left.x() - right.x()) / 2;
   for (const BoneMove& move : moves) {
     const BoneSegment segment = segment_of(move, landmarks, frame_, condyles);
     moves_.push_back({segment, motion_of(move, frame_, segment.turns_about)});
@@ -115,8 +111,8 @@ Vec3 Osteotomies::displacement_of_skull(const Vec3& at) const {
   if (cut == moves_.end()) return by;
   const BoneSegment& maxilla = cut->segment;
   const double height = frame_.y.dot(at - maxilla.plane_at),
-               clamped = frame_.y.dot(clamped_at_ - maxilla.plane_at),
-               aside = frame_.local(at).x() / half_nose_m_;
+               clamped = nose_.top - frame_.local(maxilla.plane_at).y(),
+               aside = frame_.local(at).x() / nose_.half_width;
   if (height <= 0 || height >= clamped || std::abs(aside) >= 1) return by;
   if (maxilla.ends_at && frame_.z.dot(at - *maxilla.ends_at) <= 0) return by;
   const double s = 1 - height / clamped;

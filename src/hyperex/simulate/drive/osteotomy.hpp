@@ -7,6 +7,7 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/simulate/drive/nose_cartilage.hpp"
 #include "hyperex/simulate/drive/support.hpp"
 #include "hyperex/simulate/options.hpp"
 
@@ -73,9 +74,8 @@ class Osteotomies {
   Eigen::Isometry3d product(const Holds& holds) const;
 
   face::FaceFrame frame_;
+  NoseCartilage nose_;
   std::vector<Move> moves_;
-  Vec3 clamped_at_;         ///< the lower end of the nasal bones
-  double half_nose_m_ = 0;  ///< half the distance of the wings of the nose
 };
 
 /// Displacements between bones: those of the bones about a place, weighted by the squares of their

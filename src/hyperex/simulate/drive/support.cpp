@@ -6,6 +6,7 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/drive/nose_cartilage.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -23,16 +24,12 @@ constexpr int chin_first = 5, chin_last = 11;  // iBUG points of the jaw's line
 class BoneMap {
  public:
   explicit BoneMap(const io::Landmarks& landmarks, const anatomy::Bones* bones)
-      : frame_(face::face_frame(landmarks)) {
+      : frame_(face::face_frame(landmarks)), nose_(landmarks, frame_) {
     for (int k = 0; k < 17; ++k) jaw_line_.push_back(frame_.local(landmarks.at(face::ibug(k))));
     for (int k = 48; k < 68; ++k) lips_.push_back(frame_.local(landmarks.at(face::ibug(k))));
     nose_base_ = frame_.local(landmarks.at(face::ibug(33)));
     ear_base_ = 0.5 * (jaw_line_[2] + jaw_line_[14]);
     lower_lip_ = frame_.local(landmarks.at(face::ibug(57))).y();
-    const auto local = [&](int k) { return frame_.local(landmarks.at(face::ibug(k))); };
-    nasal_bones_end_ = 0.5 * (local(28) + local(29)).y();
-    half_nose_ = 0.5 * std::abs(local(31).x() - local(35).x());
-    wings_ = 0.5 * (local(31) + local(35)).z();
     const auto* own = bones && bones->condyles() ? &*bones->condyles() : nullptr;
     ramus_z_ = own ? frame_.local(0.5 * ((*own)[0] + (*own)[1])).z() + ramus_m
                    : 0.5 * (jaw_line_[1] + jaw_line_[15]).z() + ramus_estimated_m;
@@ -49,9 +46,9 @@ class BoneMap {
 
   /// Whether the tissue of a node covers the cartilage of the nose.
   bool on_cartilage(const Vec3& inner, const Vec3& outer) const {
-    const Vec3 q = frame_.local(inner), p = frame_.local(outer);
-    return std::abs(p.x()) < half_nose_ && p.z() > wings_ && p.y() < nasal_bones_end_ &&
-           q.y() > skull_line(q.z()) && distance_to_lips(p) >= skull_off_lips_m;
+    const Vec3 p = frame_.local(outer);
+    return std::abs(p.x()) < nose_.half_width && p.z() > nose_.back && p.y() < nose_.top &&
+           attached(Bone::skull, inner, outer);
   }
 
   /// `inner` and `outer`: the two ends of the layer at one node.
@@ -112,10 +109,10 @@ class BoneMap {
   }
 
   face::FaceFrame frame_;
+  NoseCartilage nose_;
   std::vector<Vec3> jaw_line_, lips_;
   Vec3 nose_base_, ear_base_;
   double lower_lip_ = 0, ramus_z_ = 0;
-  double nasal_bones_end_ = 0, half_nose_ = 0, wings_ = 0;
 };
 
 }  // namespace
@@ -131,8 +128,8 @@ std::vector<Bone> bones_under(const tissue::TissueMesh& mesh, const io::Landmark
       continue;
     }
     const Bone bone = mesh.bones->nearest(inner, attached_m).bone;
-    if (bone != Bone::none ? map.attached(bone, inner, outer) : map.on_cartilage(inner, outer))
-      bones[v] = bone == Bone::none ? Bone::skull : bone;
+    if (bone == Bone::none && map.on_cartilage(inner, outer)) bones[v] = Bone::skull;
+    if (bone != Bone::none && map.attached(bone, inner, outer)) bones[v] = bone;
   }
   return bones;
 }

@@ -53,14 +53,9 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
     drive.still = stages.input->drive;
     return drive;
   }
-  if (const MovedBones& moved = stages.moved_bones.value(); moved.any && !places) {
-    drive.rest_prescribed = moved.prescribed;
-    drive.rest_force = moved.force;
-  } else if (changes_rest() && !places) {
-    // Grown tissue is not at rest where the mesh is: the run begins in its equilibrium.
-    drive.rest_prescribed =
-        Eigen::VectorXd::Zero(Eigen::Index(stages.boundary->prescribed().size()));
-    drive.rest_force = Eigen::VectorXd::Zero(3 * mesh->volume.nodes.rows());
+  if (changes_rest() && !places) {
+    drive.rest_prescribed = stages.moved_bones->prescribed;
+    drive.rest_force = stages.moved_bones->force;
   }
   const HeldLoad load = places ? stages.load.value() : on_moved_bones(stages.load.value());
   std::vector<char> turning = turning_columns(load, muscles.table());

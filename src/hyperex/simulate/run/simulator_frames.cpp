@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hyperex/fem/form/inverted.hpp"
-#include "hyperex/simulate/load/added_volume.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
@@ -46,9 +45,8 @@ void Simulator::Impl::describe_tissue(Performance& p) {
   p.tets = mesh->volume.tets;
   p.model = options.model;
   p.material = material();
-  p.growth.clear();
-  if (!options.tissue.volume_ratio.empty())
-    p.growth = growth_through_layer(mesh->volume, options.tissue.volume_ratio);
+  ensure_added_volume();
+  p.growth = stages.added_volume->growth;
   const std::vector<int> held = stages.boundary->held_nodes();
   p.held_points_rest.resize(held.size(), 3);
   for (std::size_t i = 0; i < held.size(); ++i)

@@ -81,6 +81,8 @@ void Simulator::Impl::ensure_boundary() {
 void Simulator::Impl::ensure_moved_bones() {
   stages.moved_bones.ensure([&] {
     auto out = std::make_shared<MovedBones>();
+    out->prescribed.setZero(Eigen::Index(stages.boundary->prescribed().size()));
+    out->force.setZero(3 * mesh->volume.nodes.rows());
     if (options.surgery.bones.empty()) return std::shared_ptr<const MovedBones>(std::move(out));
     const Osteotomies cuts(options.surgery.bones, *landmarks, mesh->bones.get());
     const Boundary moved = stages.boundary->with_moved_bones(*landmarks, cuts);
@@ -97,12 +99,11 @@ void Simulator::Impl::ensure_moved_bones() {
 void Simulator::Impl::ensure_added_volume() {
   stages.added_volume.ensure([&] {
     AddedVolume out;
-    out.any = !options.tissue.volume_ratio.empty();
-    if (out.any) {
-      const auto growth = growth_through_layer(mesh->volume, options.tissue.volume_ratio);
-      out.force = stages.pattern->growth_force(material(), growth);
+    if (!options.tissue.volume_ratio.empty()) {
+      out.growth = growth_through_layer(mesh->volume, options.tissue.volume_ratio);
+      out.force = stages.pattern->growth_force(material(), out.growth);
       if (options.model.strain == Strain::finite)
-        out.grown = std::make_shared<const fem::Assembler>(stages.pattern->grown(growth));
+        out.grown = std::make_shared<const fem::Assembler>(stages.pattern->grown(out.growth));
     }
     return std::make_shared<const AddedVolume>(std::move(out));
   });
@@ -131,11 +132,7 @@ Eigen::VectorXd Simulator::Impl::neutral_at_small_strain() {
   fem::Drive once;
   once.prescribed = moved.prescribed;
   once.force = moved.force;
-  if (!moved.any) {
-    once.prescribed = Eigen::VectorXd::Zero(Eigen::Index(stages.boundary->prescribed().size()));
-    once.force = Eigen::VectorXd::Zero(3 * mesh->volume.nodes.rows());
-  }
-  if (stages.added_volume->any) once.force += stages.added_volume->force;
+  if (!stages.added_volume->growth.empty()) once.force += stages.added_volume->force;
   once.s = Eigen::MatrixXd::Ones(1, 1);
   once.rate = once.second = Eigen::MatrixXd::Zero(1, 1);
   return stages.factor->model.at_rest(once, {0});

@@ -43,7 +43,8 @@ struct ReducedFactor {
 
 /// What added volume (TissueValues::volume_ratio) does to the face at rest.
 struct AddedVolume {
-  bool any = false;
+  /// Growth tensor of each tetrahedron (fem::Assembler::grown); empty: no volume is added.
+  std::vector<Eigen::Matrix3d> growth;
   Eigen::VectorXd force;  ///< N, all unknowns, at small strain
   /// The grown tissue, where the strain is finite; else null.
   std::shared_ptr<const fem::Assembler> grown;
@@ -52,6 +53,7 @@ struct AddedVolume {
 /// The support with segments of bone moved by surgery, and what it does to the face at rest.
 struct MovedBones {
   bool any = false;
+  /// Zero where none is moved.
   Eigen::VectorXd prescribed, force;  ///< m, as Boundary::prescribed(); N, all unknowns
   /// What is added to the forces of unit motions of the jaw (Boundary::unit_forces_of_jaw), as it
   /// now lies elsewhere.
