@@ -50,7 +50,8 @@ const std::map<std::string_view, Session::Handler>& Session::handlers() {
       {"live_take", &Session::live_take},
       {"free_name", &Session::free_name},
       {"discard_autosave", &Session::discard_autosave},
-      {"ct_seeds", &Session::ct_seeds},
+      {"ct_bones", &Session::ct_bones},
+      {"ct_slice", &Session::ct_slice},
       {"compare_visits", &Session::compare_visits},
       {"save", &Session::save},
   };

@@ -19,6 +19,7 @@
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/uncertainty/face_budget.hpp"
 #include "live.hpp"
+#include "open_ct.hpp"
 #include "open_face.hpp"
 #include "protocol.hpp"
 
@@ -93,7 +94,8 @@ class Session {
   nlohmann::json live_take(const nlohmann::json& fields);
   nlohmann::json free_name(const nlohmann::json& fields);
   nlohmann::json discard_autosave(const nlohmann::json& fields);
-  nlohmann::json ct_seeds(const nlohmann::json& fields);
+  nlohmann::json ct_bones(const nlohmann::json& fields);
+  nlohmann::json ct_slice(const nlohmann::json& fields);
   nlohmann::json compare_visits(const nlohmann::json& fields);
   nlohmann::json save(const nlohmann::json& fields);
 
@@ -122,6 +124,8 @@ class Session {
   void open_ct(const std::filesystem::path& file, const std::filesystem::path& recording);
   /// Writes what was found in a CT into a new folder and reports its notes.
   std::filesystem::path write_bones(const ct::CtFace& face);
+  /// Throws InputError where the open face is not of a CT that was opened in this session.
+  OpenCt& require_ct();
   /// The pictures of the CT of the open face; none where it has no CT.
   void send_ct_pictures();
 
@@ -184,7 +188,7 @@ class Session {
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        budget_due_ = false, saved_ = true, keeps_rescued_ = true;
   std::vector<std::filesystem::path> written_;
-  std::unique_ptr<ct::SeriesVolume> ct_;  ///< of the open face, if it was opened from its CT
+  std::unique_ptr<OpenCt> ct_;       ///< of the open face, if it was opened from its CT
   std::optional<SurfaceTree> scan_;  ///< of the open face; built when a landmark is first moved
   io::Landmarks moved_;              ///< since the last landmarks_done()
   int landmark_files_ = 0, takes_ = 0;

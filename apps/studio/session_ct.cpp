@@ -54,7 +54,13 @@ void Session::open_ct(const fs::path& file, const fs::path& recording) {
   text = scene::with_value(text, "scan.unit", "mm");
   text = scene::with_value(text, "anatomy.ct", fs::absolute(folder).string());
   open_text(text, options_.folder / "scene.toml");
-  ct_ = std::make_unique<ct::SeriesVolume>(std::move(face.series));
+  ct_ = std::make_unique<OpenCt>(std::move(face.series));
+}
+
+OpenCt& Session::require_ct() {
+  require_face();
+  if (!ct_) throw InputError("the open face is not of a CT that was opened in this session");
+  return *ct_;
 }
 
 void Session::send_ct_pictures() {
@@ -68,20 +74,37 @@ void Session::send_ct_pictures() {
       const std::string bytes = read_file(file);
       pictures[name] = block.add("uint8", bytes.data(), bytes.size());
     }
-  send_(
-      binary_message({{"event", "ct"}, {"pictures", pictures}, {"divides", ct_ != nullptr}}, block),
-      true, "ct");
+  json head = {{"event", "ct"}, {"pictures", pictures}, {"measured", ct_ != nullptr}};
+  if (const auto bone_hu = bone_hu_of(folder)) head["bone_hu"] = *bone_hu;
+  send_(binary_message(head, block), true, "ct");
 }
 
-json Session::ct_seeds(const json& fields) {
-  require_face();
-  if (!ct_) throw InputError("the open face is not of a CT that was opened in this session");
+json Session::ct_bones(const json& fields) {
+  OpenCt& ct = require_ct();
   ct::CtOptions options;
-  options.seeds = ct::Seeds{point_of(fields, "skull"), point_of(fields, "mandible")};
-  report_progress("dividing skull and jaw");
-  const fs::path folder = write_bones(ct::face_of_series(ct::SeriesVolume(*ct_), options));
+  if (fields.contains("skull") != fields.contains("mandible"))
+    throw InputError("skull and mandible are given together; expected both or neither");
+  if (fields.contains("skull"))
+    options.seeds = ct::Seeds{point_of(fields, "skull"), point_of(fields, "mandible")};
+  if (fields.contains("bone_hu")) options.bone_hu = fields.at("bone_hu");
+  report_progress("finding the bones anew");
+  const fs::path folder = write_bones(ct::face_of_series(ct::SeriesVolume(ct.series()), options));
   commit(scene::with_value(now_.text, "anatomy.ct", fs::absolute(folder).string()));
   report_progress("");
+  return json::object();
+}
+
+json Session::ct_slice(const json& fields) {
+  const int axis = fields.at("axis");
+  const OpenCt::Slice slice =
+      require_ct().slice(face_->scene().anatomy.ct, axis, fields.at("share"));
+  const std::vector<std::uint8_t> png = render::png_bytes(slice.picture);
+  report::BinaryBlock block;
+  const json head = {{"event", "ct_slice"},
+                     {"axis", axis},
+                     {"caption", slice.caption},
+                     {"picture", block.add("uint8", png.data(), png.size())}};
+  send_(binary_message(head, block), true, "");
   return json::object();
 }
 

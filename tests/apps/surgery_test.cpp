@@ -139,9 +139,21 @@ TEST_F(Surgery, IsRefusedInOneSentence) {
               testing::HasSubstr("from -30 to 30"));
   EXPECT_THAT(refused("bone = [{ part = \"mandible\", cut = \"le_fort_1\", move_mm = [0, 0, 6] }]"),
               testing::HasSubstr("standard or bsso, or whole, for the mandible"));
-  EXPECT_THAT(refused("bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]",
-                      "drive = { by = \"displacement\" }\n"),
-              testing::HasSubstr("drive.by = muscles or reactions"));
+}
+
+TEST_F(Surgery, NeedsForcesThatDriveTheFace) {
+  for (const auto& [variant, key] :
+       {std::pair{"bone = [{ part = \"mandible\", move_mm = [0, 0, 6] }]", "surgery.bone"},
+        {"tissue.region = [{ name = \"cheek_L\", volume_ml = 2 }]", "tissue.region"}}) {
+    write(variant, "drive = { by = \"displacement\" }\n");
+    const Outcome checked = call("check scene.toml");
+    EXPECT_EQ(checked.status, 2);
+    EXPECT_THAT(checked.err,
+                testing::AllOf(testing::ContainsRegex("scene.toml:[0-9]+"), testing::HasSubstr(key),
+                               testing::HasSubstr("drive.by = \"muscles\" or \"reactions\"")));
+    EXPECT_EQ(call("run scene.toml --out none").status, 2);
+    EXPECT_FALSE(std::filesystem::exists(in("none")));
+  }
 }
 
 }  // namespace

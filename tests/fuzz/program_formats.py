@@ -37,6 +37,17 @@ FINITE_SCENE = (
     b'tissue.strain = "finite"\ntissue.law = "yeoh"\ntissue.maxwell = [{ ratio = 0.5, relaxation_s = 0.1 }]\n'
     b'drive.by = "displacement"\ntime.end_s = 0.05\ntime.frame_rate_hz = 40\noutput.vtu = false\n'
     b'support.skull = "held"\nregion.measured = "points"\nregion.measured_points = ["cheek_L"]\noutput.jitter_mm = 0\n')
+SURGERY_SCENE = (
+    b'scan.file = "embedded"\nmotion.file = "embedded"\ndrive.by = "muscles"\n[output]\nvtu = false\nglb = false\n'
+    b'report = false\n[[variant]]\nname = "advanced"\nsurgery.bone = [{ part = "mandible", cut = "bsso", '
+    b'move_mm = [0, 1.5, 6], turn_deg = [-2, 0, 1], cut_shift_mm = 3 }, { part = "chin", move_mm = [0, 0, 4] }]\n'
+    b'[[variant]]\nname = "filled"\ntissue.mirror = true\ntissue.region = [{ name = "cheek_R", volume_ml = 2 }, '
+    b'{ scar = ["cheek_R", "cheilion_R"], width_mm = 8, volume_ml = -0.2 }]\n[[variant]]\nname = "up"\n'
+    b'bone = [{ part = "maxilla", move_mm = [0, 3, 0] }, { part = "skull", move_mm = [1, 0, 0] }]\n')
+BONES_SCENE = (
+    b'scan = { file = "face.ply", unit = "mm", landmarks = "l.json" }\nmotion.file = "embedded"\n'
+    b'anatomy = { skull = "bone.ply", mandible = "jaw.ply" }\n[[variant]]\n'
+    b'bone = [{ part = "mandible", move_mm = [0, 0, 6] }]\n')
 STUDY = (b'title = "s"\nscene = "s.toml"\nout = "swept"\n[set]\nmesh.element_size_mm = 15\nmesh.layers = 1\n'
          b'time.end_s = 0.05\noutput = { vtu = false, glb = false, report = false, picture_times_s = [0] }\n[grid]\n'
          b'tissue.young_kpa = [50, 1e2]\n[[grid.cheeks]]\nname = "stiff"\n'
@@ -59,6 +70,11 @@ REQUESTS = [
      "time_s": .02},
     {"do": "set", "changes": {"tissue.region": [{"name": "cheek_R", "young_factor": 3}]}, "face": 0, "live": True,
      "time_s": 0},
+    {"do": "set", "changes": {"surgery.bone": [{"part": "chin", "cut": "genioplasty", "move_mm": [0, 1, 4],
+                                                "turn_deg": [0, 0, 3], "cut_shift_mm": 2}]}, "face": 0, "live": False},
+    {"do": "set", "changes": {"tissue.region": [{"name": "lips", "volume_ml": .5}]}, "face": 0, "live": True, "time_s": 0},
+    {"do": "ct_bones", "skull": [0, .045, -.006], "mandible": [0, -.031, .028], "bone_hu": 300},
+    {"do": "ct_slice", "axis": 1, "share": .5},
     {"do": "add_variant", "name": "v", "like": 0, "preset": "palsy_partial_R"}, {"do": "remove_variant", "face": 1},
     {"do": "rename_variant", "face": 1, "name": "w"},
     {"do": "paint", "vertices": [1, 2, 300], "shares": [.5, 1, .1]},
@@ -83,6 +99,8 @@ class Table:
         self.made, self.all = made, []
         sample = os.path.join(made, "sample")
         self.face, self.quad = face_of(read(made, "tracked.glb")), (CORNERS, [(0, 1, 2), (0, 2, 3)])
+        # Stands for bones: the face, smaller and farther back.
+        self.below = [(.85 * x, .95 * y, z - 12) for x, y, z in self.face[0]], self.face[1]
         self.landmarks = landmarks_of(read(made, "tracked.csv"))
         self.csv = read(made, "run", "motion.csv")
         self.recording = recording_of(os.path.join(sample, "recording"))
@@ -161,6 +179,12 @@ class Table:
         self.add("scene", "in.toml", [RICH_SCENE, FINITE_SCENE], [
             ["check", "in.toml"], ["run", "in.toml", "--out", "out", *COARSE], ["run", "in.toml", "--out", "out",
                                                                               "--no-variants", *COARSE]], whole)
+        self.add("surgery", "in.toml", [SURGERY_SCENE], [["check", "in.toml"], ["run", "in.toml", "--out", "out", *COARSE]])
+        bones = {"bone.ply": ply_binary(*self.below), "jaw.ply": ply_binary(*self.below)}
+        self.add("anatomy", "in.toml", [BONES_SCENE], [["check", "in.toml"], ["run", "in.toml", "--out", "out", *COARSE]],
+                 bones)
+        self.add("anatomy_bone", "bone.ply", [ply_binary(*self.below), ply_ascii(*self.below)], [
+            ["check", "b.toml"], ["run", "b.toml", "--out", "out", *COARSE]], {**bones, "b.toml": BONES_SCENE})
         self.add("study", "in.toml", [STUDY, b'scene = "s.toml"\ncases = "cases.csv"\n[set]\ntime.end_s = 0.05\n'], [
             ["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--snakemake"], ["sweep", "in.toml", "--slurm"],
             ["sweep", "in.toml", "--list"], ["sweep", "in.toml", "--collect"]], {"cases.csv": CASES})

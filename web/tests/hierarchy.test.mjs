@@ -271,15 +271,25 @@ test('one word for stiffness', async () => {
   assert.equal(words.keyNames['tissue.young_kpa'], 'Stiffness');
 });
 
-test('a number at the end of what is typed is a strength, in a preset’s name it is not', async () => {
+test('a number at the end of what is typed is an amount, in a preset’s name it is not', async () => {
   const { matching, readQuery } = await imported('studio/chooser.ts');
-  const choice = (text, strength) => ({ group: 'g', value: text, text, detail: '', strength, take: () => {} });
-  const all = [choice('Right side', true), choice('Source model 2', false)];
+  const choice = (text, amount) => ({ group: 'g', value: text, text, detail: '', amount, take: () => {} });
+  const amount = (unit, most) => ({ unit, usual: 1, most });
+  const all = [
+    choice('Right side', amount('%', 200)), choice('Source model 2'), choice('Lower jaw forward', amount('mm', 30)),
+    choice('Cheek, left', amount('ml', 30)),
+  ];
   const found = (typed) => matching(all, typed).map(({ text }) => text);
   assert.deepEqual(found('model 2'), ['Source model 2']);
   assert.deepEqual(found('side right 30 %'), ['Right side']);
-  assert.deepEqual(found('30'), ['Right side']);
-  assert.equal(readQuery('side right 30').percent, 30);
-  assert.equal(readQuery('side right 300').percent, null);
-  assert.equal(readQuery('side').percent, null);
+  assert.deepEqual(found('lower jaw 6 mm'), ['Lower jaw forward']);
+  assert.deepEqual(found('left cheek 2,5 ml'), ['Cheek, left']);
+  assert.deepEqual(found('left cheek 40 ml'), [], 'more than may be');
+  assert.deepEqual(found('left cheek 2 mm'), [], 'another unit');
+  assert.deepEqual(found('20'), ['Right side', 'Lower jaw forward', 'Cheek, left']);
+  assert.deepEqual(found('100%'), ['Right side']);
+  assert.equal(readQuery('side right 30').amount, 30);
+  assert.equal(readQuery('cheek 1.5 ml').amount, 1.5);
+  assert.equal(readQuery('side right 3000').amount, null);
+  assert.equal(readQuery('side').amount, null);
 });

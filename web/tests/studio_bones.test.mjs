@@ -142,6 +142,19 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     await settled();
     console.log(`a CT is open after ${((Date.now() - began) / 1e3).toFixed(0)} s`);
     for (const picture of await page.locator('.ct-pictures img').all()) assert.ok(await picture.evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
+    // Its slices: one of each kind, along the head.
+    const caption = page.locator('.ct-slices output');
+    await page.waitForFunction(() => /^axial, y = \d+/.test(document.querySelector('.ct-slices output').value));
+    const [middle, source] = [await caption.textContent(), await page.locator('.ct-slices img').getAttribute('src')];
+    await page.locator('.ct-slices input[type=range]').focus();
+    for (let k = 0; k < 20; ++k) await page.keyboard.press('ArrowRight');
+    await page.waitForFunction((old) => document.querySelector('.ct-slices output').value !== old, middle);
+    assert.notEqual(await page.locator('.ct-slices img').getAttribute('src'), source);
+    await page.locator('.ct-slices').getByRole('button', { name: 'Coronal' }).click();
+    await page.waitForFunction(() => /^coronal, z = \d+, from the front$/.test(document.querySelector('.ct-slices output').value));
+    assert.ok(await page.locator('.ct-slices img').evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
+    const boneHu = page.locator('.ct-slices input[type=number]');
+    assert.ok(Number(await boneHu.inputValue()) > 150);
     const text = await page.locator('#scene-text').textContent();
     assert.match(text, /\[anatomy\]\s+ct = /);
     assert.doesNotMatch(text, /doe|jane|1970/i, 'the name of the file may name the patient');
@@ -171,11 +184,18 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     await page.click('#undo');
     await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('ct-2'));
     await settled();
+    // Another value of bone.
+    await page.click('#open-files');
+    const other = String(Number(await boneHu.inputValue()) + 60);
+    await boneHu.fill(other);
+    await page.getByRole('button', { name: 'Find the bones anew' }).click();
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('ct-3'));
+    await settled();
+    assert.equal(await boneHu.inputValue(), other);
     // Another face has no CT.
     const divide = page.getByRole('button', { name: 'Skull and jaw are divided wrongly' });
     assert.equal(await divide.isVisible(), true);
     page.on('dialog', (dialog) => void dialog.accept());
-    await page.click('#open-files');
     await page.locator('#open-panel').getByRole('button', { name: 'Face built into Hyperex' }).click();
     await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('embedded'));
     await settled();

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/ct/pictures.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "hyperex/ct/slice_picture.hpp"
+#include "hyperex/ct/head_slices.hpp"
 #include "hyperex/render/contact_sheet.hpp"
 #include "hyperex/render/render.hpp"
 #include "hyperex/render/side_marks.hpp"
@@ -14,11 +12,8 @@
 namespace hyperex::ct {
 namespace {
 
-constexpr render::Colour kSkinLine{0.98, 0.75, 0.20}, kSkullLine{0.20, 0.85, 0.95},
-    kMandibleLine{0.95, 0.35, 0.65};
 constexpr render::Colour kSkullColour{0.87, 0.84, 0.74}, kMandibleColour{0.55, 0.68, 0.86};
 constexpr render::Colour kBehindBone{0.62, 0.60, 0.57};
-constexpr double kPixelsPer_m = 2200, kMargin_m = 0.008;
 constexpr double kSkinShare = 0.38;  // of the skin's picture, over bone
 
 struct View {
@@ -28,28 +23,6 @@ struct View {
 const std::vector<View> kViews = {{{-0.85, 0.1, 0.75}, "from the right"},
                                   {{0, 0, 1}, "from the front"},
                                   {{0.85, 0.1, 0.75}, "from the left"}};
-
-/// The box of the skin.
-struct Frame {
-  explicit Frame(const TriMesh& skin)
-      : low(skin.points.colwise().minCoeff().transpose()),
-        high(skin.points.colwise().maxCoeff().transpose()) {}
-  Vec3 middle() const { return (low + high) / 2; }
-  double length(int axis) const { return high[axis] - low[axis] + 2 * kMargin_m; }
-  Vec3 low, high;
-};
-
-SlicePlane plane_of(const Frame& box, const Vec3& at, const Vec3& right, const Vec3& up) {
-  SlicePlane plane;
-  plane.right = right, plane.up = up;
-  const Vec3 normal = right.cross(up);
-  plane.middle = box.middle() + normal.dot(at - box.middle()) * normal;
-  int across = 0, upwards = 0;
-  right.cwiseAbs().maxCoeff(&across);
-  up.cwiseAbs().maxCoeff(&upwards);
-  plane.width_m = box.length(across), plane.height_m = box.length(upwards);
-  return plane;
-}
 
 /// Where bone is, it shines through the skin. `bone` was drawn before kBehindBone, whose colour is
 /// near that of the skin, so that no bright seam runs along the bone's outline.
@@ -66,57 +39,33 @@ render::Image through(const render::Image& skin, const render::Image& bone) {
   return out;
 }
 
-/// The sides in white, as the picture is dark.
-render::Image with_marks(const render::Image& image, const render::SideMarks& marks) {
-  render::Canvas canvas(image);
-  const render::TextStyle left{.size_px = 18, .colour = {1, 1, 1}, .bold = true};
-  render::TextStyle right = left;
-  right.align = render::Align::right;
-  canvas.text(10, 24, marks.at_left, left);
-  canvas.text(image.width - 10, 24, marks.at_right, right);
-  return canvas.image();
-}
-
 /// The height of a landmark, or a share of the head's height.
-double height_of(const CtFace& face, const Frame& box, const char* name, double share) {
+double height_of(const CtFace& face, const HeadSlices& slices, const char* name, double share) {
   const auto at = face.points.skin.find(name);
   return at != face.points.skin.end() ? at->second.y()
-                                      : box.low.y() + share * (box.high.y() - box.low.y());
+                                      : std::lerp(slices.low_m(1), slices.high_m(1), share);
 }
 
 }  // namespace
 
 render::Image draw_slices(const CtFace& face) {
-  const Frame box(face.skin);
-  std::vector<Contour> contours = {{face.skin, kSkinLine}};
-  if (face.bones.skull.triangles.rows() > 0) contours.push_back({face.bones.skull, kSkullLine});
-  if (face.bones.mandible.triangles.rows() > 0)
-    contours.push_back({face.bones.mandible, kMandibleLine});
+  const HeadSlices slices(face.series.volume, face.skin, face.bones);
   render::ContactSheet sheet;
   sheet.title = "Slices, with the surfaces drawn from them";
   sheet.note = "skin: yellow; skull: blue; mandible: pink; lengths as in the outputs, mm";
   sheet.columns = 3;
-  const auto add = [&](const SlicePlane& plane, const std::string& caption,
-                       const render::SideMarks& marks) {
-    const render::Image slice = slice_picture(face.series.volume, plane, contours, kPixelsPer_m);
-    sheet.pictures.push_back({with_marks(slice, marks), caption, {}});
+  const auto add = [&](int axis, double place_m) {
+    sheet.pictures.push_back(
+        {slices.picture(axis, place_m), HeadSlices::caption(axis, place_m), {}});
   };
-  const Vec3 left = Vec3::UnitX(), up = Vec3::UnitY(), forward = Vec3::UnitZ();
-  const double nose = height_of(face, box, "pronasale", 0.5),
-               lip = height_of(face, box, "subnasale", 0.42),
-               chin = height_of(face, box, "pogonion", 0.25);
-  for (const double y : {nose, (lip + chin) / 2, chin})
-    add(plane_of(box, {0, y, 0}, left, forward),
-        fmt::format("axial, y = {:.0f}, from below", 1e3 * y), {"R", "", "L"});
+  const double nose = height_of(face, slices, "pronasale", 0.5),
+               lip = height_of(face, slices, "subnasale", 0.42),
+               chin = height_of(face, slices, "pogonion", 0.25);
+  for (const double y : {nose, (lip + chin) / 2, chin}) add(1, y);
   const auto at = face.points.skin.find("pronasale");
-  const double x = at != face.points.skin.end() ? at->second.x() : box.middle().x();
-  add(plane_of(box, {x, 0, 0}, forward, up),
-      fmt::format("sagittal, x = {:.0f}, front at the right", 1e3 * x), {});
-  for (const double share : {0.75, 0.55}) {
-    const double z = box.low.z() + share * (box.high.z() - box.low.z());
-    add(plane_of(box, {0, 0, z}, left, up),
-        fmt::format("coronal, z = {:.0f}, from the front", 1e3 * z), {"R", "", "L"});
-  }
+  add(0, at != face.points.skin.end() ? at->second.x() : slices.middle_m().x());
+  for (const double share : {0.75, 0.55})
+    add(2, std::lerp(slices.low_m(2), slices.high_m(2), share));
   return render::contact_sheet(sheet);
 }
 

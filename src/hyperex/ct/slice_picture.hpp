@@ -24,7 +24,4 @@ struct Contour {
 render::Image slice_picture(const Volume& volume, const SlicePlane& plane,
                             const std::vector<Contour>& contours, double pixels_per_m);
 
-/// The segments in which a plane through `middle` with unit `normal` cuts a surface: two rows each.
-Points cut_by_plane(const TriMesh& mesh, const Vec3& middle, const Vec3& normal);
-
 }  // namespace hyperex::ct

@@ -12,6 +12,7 @@ namespace hyperex::scene {
 namespace {
 using simulate::DriveBy;
 using simulate::MuscleGain;
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
 using testing::IsEmpty;
@@ -263,6 +264,21 @@ TEST(MuscleKeys, AreEchoed) {
   EXPECT_EQ(options.at("muscles").at("mirrored"), false);
   const Scene plain = read_scene(folder.write("plain.toml", smallest));
   EXPECT_EQ(echoed_options(plain).at("muscles").at("gain"), nlohmann::json::object());
+}
+
+TEST(MuscleKeys, MovedBonesAndAddedVolumeNeedForces) {
+  const std::string bone = "[surgery]\nbone = [{ part = \"chin\", move_mm = [0, 0, 4] }]\n",
+                    volume = "[[tissue.region]]\nname = \"lips\"\nvolume_ml = 1\n";
+  for (const auto& [text, key] : {std::pair{&bone, "surgery.bone"}, {&volume, "tissue.region"}}) {
+    EXPECT_THAT(only_muscle_problem(smallest + *text, {"drive.by=displacement"}),
+                AllOf(HasSubstr(key), HasSubstr("expected drive.by = \"muscles\"")));
+    for (const char* by : {"muscles", "reactions"})
+      EXPECT_NO_THROW(scene_of(smallest + *text, {std::string("drive.by=") + by}));
+    EXPECT_NO_THROW(scene_of(smallest + *text)) << "what drives is chosen later";
+  }
+  EXPECT_NO_THROW(
+      scene_of(smallest + std::string("[[tissue.region]]\nname = \"lips\"\nyoung_factor = 2\n"),
+               {"drive.by=displacement"}));
 }
 
 TEST(MuscleKeys, ARegionThatIsMeasuredIsRefused) {

@@ -97,6 +97,11 @@ export class BoneView {
     return { at: this.onJaw ? at.applyMatrix4(this.jaw.matrix) : at, axes, lengthM: arrowM + 0.008 };
   }
 
+  /** Whether the bones are drawn over the skin; the cut and the arrows always are. */
+  set bonesVisible(on: boolean) {
+    for (const surface of this.surfaces) surface.visible = on;
+  }
+
   /** Another move with the same cut. */
   set(move: BoneMove): void {
     this.move = move;

@@ -3,7 +3,7 @@
 // face at rest, beside published ratios.
 import { button, element } from '../page/dom';
 import { fixed, landmarkName, upper } from '../page/format';
-import { rememberFold } from '../page/remember';
+import { remember, remembered, rememberFold } from '../page/remember';
 import type { Vec3 } from '../replay/data';
 import { frameAt } from '../replay/face/deform';
 import type { FaceViewer } from '../replay/face/viewer';
@@ -38,6 +38,8 @@ export class BonesPanel implements RemarkPanel {
   private readonly shift: Slider;
   private readonly note = element('p', '', 'why');
   private readonly results = element('table', '', 'bone-results');
+  private readonly through = element('input');
+  private readonly throughLabel = element('label', '', 'check');
   private readonly back = button(words.boneBack, 'quiet', () => this.commit(this.inBase));
   private readonly divide = button(words.boneDivide, 'quiet', () => this.startDivision());
   private readonly dividing = element('p', '', 'why');
@@ -68,14 +70,21 @@ export class BonesPanel implements RemarkPanel {
       live: (value) => this.live({ ...this.move, cut_shift_mm: value }),
       done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? this.inBase.cut_shift_mm }),
     });
+    Object.assign(this.through, { type: 'checkbox', checked: remembered('bones.through') !== 'no' });
+    this.through.addEventListener('change', () => {
+      remember('bones.through', this.through.checked ? 'yes' : 'no');
+      this.showBones();
+    });
+    this.throughLabel.append(this.through, element('span', words.bonesThrough));
     const more = element('details', '', 'muscle-group');
     more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
     rememberFold(more, 'bones.more');
     this.element.append(
-      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.note, this.divide, this.dividing);
+      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.throughLabel,
+      this.note, this.divide, this.dividing);
     this.divide.hidden = true;
     this.dividing.setAttribute('role', 'status');
-    connection.on('ct', ({ divides }) => (this.divide.hidden = !divides));
+    connection.on('ct', ({ measured }) => (this.divide.hidden = !measured));
     state.sceneChanged.add(() => this.update());
     state.shown.onChange(() => this.update());
     state.source.onChange(() => this.fillResults());
@@ -184,7 +193,9 @@ export class BonesPanel implements RemarkPanel {
     this.cutLabel.hidden = part !== 'mandible';
     this.cut.value = own.cut === 'whole' ? 'whole' : 'standard';
     this.back.disabled = !this.all.some((move) => move.part === part);
-    this.note.textContent = this.bones && (this.bones.skull ?? this.bones.mandible) ? words.bonesOwn : words.bonesGuessed;
+    const known = Boolean(this.bones && (this.bones.skull ?? this.bones.mandible));
+    this.throughLabel.hidden = !known;
+    this.note.textContent = known ? words.bonesOwn : words.bonesGuessed;
     this.fillResults();
     this.showBones();
   }
@@ -199,6 +210,7 @@ export class BonesPanel implements RemarkPanel {
     const of = `${move.part} ${move.cut} ${move.cut_shift_mm}`;
     if (this.shown?.of === of && viewer.shows(this.shown.view)) {
       this.shown.view.set(move);
+      this.shown.view.bonesVisible = this.through.checked;
       this.openJaw();
       viewer.redraw();
       return;
@@ -206,6 +218,7 @@ export class BonesPanel implements RemarkPanel {
     if (this.division) this.endDivision('');
     this.shown?.handles.dispose();
     const view = new BoneView(this.bones, move);
+    view.bonesVisible = this.through.checked;
     viewer.showMarks(view);
     const moved = (moveMm: Vec3, done: boolean) => {
       const next = { ...this.move, move_mm: moveMm.map((mm) => Math.min(Math.max(mm, -most), most)) as Vec3 };
@@ -230,6 +243,8 @@ export class BonesPanel implements RemarkPanel {
   private startDivision(): void {
     const viewer = this.viewer();
     if (!viewer || !this.shown) return;
+    this.through.checked = true;
+    this.showBones();
     this.endDivision(words.boneDivideSkull);
     this.shown.handles.paused = true;
     this.division = new BoneDivision(viewer, this.shown.view, (skull, mandible) => {
@@ -242,7 +257,7 @@ export class BonesPanel implements RemarkPanel {
 
   private async sendSeeds(skull: Vec3, mandible: Vec3): Promise<void> {
     try {
-      await this.connection.request('ct_seeds', { skull, mandible });
+      await this.connection.request('ct_bones', { skull, mandible });
       this.dividing.textContent = '';
     } catch (error) {
       this.dividing.textContent = error instanceof Refused ? error.message : '';

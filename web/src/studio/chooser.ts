@@ -1,42 +1,60 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A list of choices in groups, with a search field above it. The arrow keys move the selection and Enter takes it. A
-// number at the end of the search text sets the strength: "zygomatic right 30".
+// number at the end of the search text sets how much: "zygomatic right 30", "cheek left 2 ml", "lower jaw 4 mm".
 import { element } from '../page/dom';
 import { words } from './words';
+
+/** How much of a choice there is. */
+export interface Amount {
+  unit: '%' | 'ml' | 'mm';
+  /** If no number is typed. */
+  usual: number;
+  most: number;
+}
 
 export interface Choice {
   group: string;
   /** Names it for tests and the server. */
   value: string;
   text: string;
-  /** Beside it; with a strength, what it would be. */
-  detail: string | ((percent: number) => string);
+  /** Beside it; with an amount, what it would be. */
+  detail: string | ((amount: number) => string);
   /** Below the list while it is chosen. */
   says?: string;
-  /** It has a strength. */
-  strength?: boolean;
-  take(percent: number): void;
+  amount?: Amount;
+  /** `amount`: what was typed, or the usual one; 0 where the choice has none. */
+  take(amount: number): void;
 }
 
-/** The strength of a weakened muscle if none is typed, percent of its activation in base. */
-export const usualPercent = 50;
+const plain = (text: string): string => text.toLowerCase().normalize('NFD').replace(/[^a-z0-9%. ]+/g, ' ');
+const wordsOf = (text: string): string[] => plain(text).split(' ').filter(Boolean);
 
-const plain = (text: string): string => text.toLowerCase().normalize('NFD').replace(/[^a-z0-9% ]+/g, ' ');
+export interface Query {
+  /** The words to find in choices with an amount, and in all others. */
+  parts: string[];
+  all: string[];
+  /** At its end, with its unit where that is typed. */
+  amount: number | null;
+  unit: string;
+}
 
-/** What is typed: words to find, and the strength at its end. */
-export function readQuery(typed: string): { parts: string[]; all: string[]; percent: number | null } {
-  const all = plain(typed).split(' ').filter(Boolean);
-  const found = /^(.*?)\s*(\d{1,3})\s*%?\s*$/.exec(plain(typed));
-  const percent = found && Number(found[2]) <= 200 ? Number(found[2]) : null;
-  return { parts: percent === null ? all : found![1].split(' ').filter(Boolean), all, percent };
+export function readQuery(typed: string): Query {
+  const found = /^(.*?)\s*(?<![a-z0-9.])(\d{1,3}(?:\.\d+)?)\s*(%|ml|mm)?\s*$/.exec(plain(typed.replace(',', '.')));
+  const all = wordsOf(typed);
+  return found ? { parts: wordsOf(found[1]), all, amount: Number(found[2]), unit: found[3] ?? '' } : { parts: all, all, amount: null, unit: '' };
+}
+
+/** What is typed as an amount of this choice; null: it is none. */
+function amountOf({ amount: of }: Choice, { amount, unit }: Query): number | null {
+  return of && amount !== null && amount <= of.most && (unit === '' || unit === of.unit) ? amount : null;
 }
 
 /** The choices that have all words. */
 export function matching(choices: Choice[], typed: string): Choice[] {
-  const { parts, all } = readQuery(typed);
+  const query = readQuery(typed);
   return choices.filter((choice) => {
     const text = plain(`${choice.text} ${choice.group} ${typeof choice.detail === 'string' ? choice.detail : ''}`);
-    return (choice.strength ? parts : all).every((part) => text.includes(part));
+    return (amountOf(choice, query) === null ? query.all : query.parts).every((part) => text.includes(part));
   });
 }
 
@@ -50,7 +68,7 @@ class Chooser {
   private active = 0;
   private readonly id = `choices-${++count}`;
 
-  constructor(sheet: HTMLElement, private readonly choices: Choice[], private readonly usual: number, private readonly close: () => void) {
+  constructor(sheet: HTMLElement, private readonly choices: Choice[], private readonly close: () => void) {
     const { find, list } = this;
     Object.assign(find, { type: 'search', placeholder: words.chooserFind, autocomplete: 'off', spellcheck: false });
     for (const [name, value] of Object.entries({ role: 'combobox', 'aria-label': words.chooserFind, 'aria-expanded': 'true', 'aria-autocomplete': 'list', 'aria-controls': this.id }))
@@ -65,8 +83,8 @@ class Chooser {
     this.fill();
   }
 
-  private get percent(): number {
-    return readQuery(this.find.value).percent ?? this.usual;
+  private amountOf(choice: Choice): number {
+    return amountOf(choice, readQuery(this.find.value)) ?? choice.amount?.usual ?? 0;
   }
 
   private fill(): void {
@@ -97,7 +115,7 @@ class Chooser {
     option.id = `${this.id}-${i}`;
     option.setAttribute('role', 'option');
     option.dataset.choice = choice.value;
-    option.append(element('span', choice.text), element('small', typeof choice.detail === 'string' ? choice.detail : choice.detail(this.percent)));
+    option.append(element('span', choice.text), element('small', typeof choice.detail === 'string' ? choice.detail : choice.detail(this.amountOf(choice))));
     if (choice.says) option.append(element('small', choice.says, 'choice-says'));
     option.addEventListener('click', () => this.take(choice));
     return option;
@@ -133,14 +151,13 @@ class Chooser {
   }
 
   private take(choice: Choice): void {
-    const { percent } = this;
+    const amount = this.amountOf(choice);
     this.close();
-    choice.take(percent);
+    choice.take(amount);
   }
 }
 
-/** Fills a sheet; `usual`: the strength where none is typed. */
-export function fillChooser(sheet: HTMLElement, choices: Choice[], usual: number, close: () => void): void {
+export function fillChooser(sheet: HTMLElement, choices: Choice[], close: () => void): void {
   sheet.classList.add('what-if-sheet');
-  new Chooser(sheet, choices, usual, close);
+  new Chooser(sheet, choices, close);
 }

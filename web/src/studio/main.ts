@@ -56,7 +56,10 @@ class Studio {
   private readonly figures = new FiguresPanel(this.state, at('figures-body'), this.answer);
   private readonly certainty = new Certainty(this.state, this.connection, at('certainty'), (text) => this.problem(text));
   private readonly drawer = new Drawer();
-  private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain), () => this.panels.show('bones'));
+  private readonly whatIf = new WhatIf(this.state, this.edits, (gain) => this.muscles.reveal(gain), () => this.panels.show('bones'), (region) => {
+    this.tissue.choosePart(region);
+    this.panels.show('tissue');
+  });
   private readonly opening = new OpenPanel(this.state, this.connection, at('open-panel'), () => this.drawer.openFiles());
   private readonly landmarks = new LandmarksPanel(this.state, this.connection, at('landmarks-panel'), () => this.stage?.face ?? null, (on) => this.bones.pause(on));
   private readonly live = new LivePanel(this.state, this.connection, at('live-panel'), () => this.stage?.face ?? null, (face, shape) => this.figures.showLive(face, shape));

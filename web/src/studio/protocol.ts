@@ -210,16 +210,28 @@ export type DiscardAutosaveRequest = Record<string, never>;
 export type DiscardAutosaveAnswer = Record<string, never>;
 
 /**
- * Divides skull and mandible of the CT that was opened in this session anew, by one point in each. A change
- * that undo takes back; the events face and ct follow.
+ * Finds the bones of the CT that was opened in this session anew: by one point in each of skull and
+ * mandible, by another value of bone, or by both. A change that undo takes back; the events face and ct
+ * follow.
  */
-export interface CtSeedsRequest {
-  /** [x, y, z], metres, in the scan's frame */
-  skull: unknown;
+export interface CtBonesRequest {
+  /** [x, y, z], metres, in the scan's frame; together with mandible */
+  skull?: unknown;
   /** the same */
-  mandible: unknown;
+  mandible?: unknown;
+  /** bone is what has more; HU, or the file's own units */
+  bone_hu?: number;
 }
-export type CtSeedsAnswer = Record<string, never>;
+export type CtBonesAnswer = Record<string, never>;
+
+/** Sends a slice of the CT that was opened in this session: the event ct_slice, before the answer. */
+export interface CtSliceRequest {
+  /** 0 sagittal, 1 axial, 2 coronal */
+  axis: number;
+  /** of the way from the skin's end at the right, below or behind to the other end */
+  share: number;
+}
+export type CtSliceAnswer = Record<string, never>;
 
 /**
  * Compares the present recording with the one before as two visits of one person (docs/visits.md). Writes a
@@ -325,8 +337,20 @@ export interface FaceEvent {
 export interface CtEvent {
   /** slices, bones_through_skin and thickness: arrays with a PNG each; absent where the face has no CT */
   pictures: unknown;
-  /** whether ct_seeds may be asked */
-  divides: boolean;
+  /** whether its values are there: ct_bones and ct_slice may be asked */
+  measured: boolean;
+  /** the value of bone by which its bones were found */
+  bone_hu?: number;
+}
+
+/** Binary. A slice of the CT, with the contours of skin, skull and mandible. */
+export interface CtSliceEvent {
+  /** of the request */
+  axis: number;
+  /** where it lies and from where it is seen */
+  caption: string;
+  /** uint8, a PNG */
+  picture: Stretch;
 }
 
 /** Binary. A new motion of all faces: replaces the motion in the last event face or motion. */
@@ -455,7 +479,8 @@ export interface Requests {
   live_take: { fields: LiveTakeRequest; answer: LiveTakeAnswer };
   free_name: { fields: FreeNameRequest; answer: FreeNameAnswer };
   discard_autosave: { fields: DiscardAutosaveRequest; answer: DiscardAutosaveAnswer };
-  ct_seeds: { fields: CtSeedsRequest; answer: CtSeedsAnswer };
+  ct_bones: { fields: CtBonesRequest; answer: CtBonesAnswer };
+  ct_slice: { fields: CtSliceRequest; answer: CtSliceAnswer };
   compare_visits: { fields: CompareVisitsRequest; answer: CompareVisitsAnswer };
   save: { fields: SaveRequest; answer: SaveAnswer };
 }
@@ -467,6 +492,7 @@ export interface Events {
   scene: SceneEvent;
   face: FaceEvent;
   ct: CtEvent;
+  ct_slice: CtSliceEvent;
   motion: MotionEvent;
   budget: BudgetEvent;
   live: LiveEvent;

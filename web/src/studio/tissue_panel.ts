@@ -65,6 +65,12 @@ export class TissuePanel implements RemarkPanel {
     this.update();
   }
 
+  /** By its name in tissue.region. */
+  choosePart(region: string): void {
+    this.part.value = region;
+    this.update();
+  }
+
   controlsOf({ key }: Remark): Control[] {
     const slider = key === regions ? this.ofPart.get('young_factor') : this.sliders.get(key);
     return slider ? [slider.control] : [];

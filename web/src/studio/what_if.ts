@@ -1,33 +1,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // "What if …": another face of base, or another change of the face shown, chosen from one list: weaker muscles by side,
-// branch of the facial nerve or name, presets with their sources, a copy.
+// branch of the facial nerve or name, presets with their sources, moved bones, filler, a copy.
 import { at } from '../page/dom';
 import { upper } from '../page/format';
 import { menuOf, type Menu } from '../page/menu';
 import { boneKey, boneParts, moveOf, movesOf, withMove } from './bone_moves';
 import { briefName } from './brief_name';
-import { fillChooser, usualPercent, type Choice } from './chooser';
+import { fillChooser, type Amount, type Choice } from './chooser';
 import type { Edits } from './edits';
-import { isRecord, type Preset } from './messages';
+import { isRecord, type Preset, type Values } from './messages';
+import { sidesAndBoth } from './region_chooser';
 import type { StudioState } from './studio_state';
 import { tryChange } from './try_change';
 import { words } from './words';
 
 const gainKey = 'muscles.gain';
-const usualMoveMm = 6;
+const regionKey = 'tissue.region';
+/** A weakened muscle, of its activation in base. */
+const strength: Amount = { unit: '%', usual: 50, most: 200 };
+const movement: Amount = { unit: 'mm', usual: 6, most: 30 };
+/** A syringe of filler. */
+const volume: Amount = { unit: 'ml', usual: 1, most: 30 };
 type Take = (gain: string, percent: number) => void;
 
 export class WhatIf {
   presets: Preset[] = [];
   readonly menu: Menu;
 
-  /** `showBones` opens the panel of bones. `strengthChanged` is called with the name of a muscle, branch or side after a variant with another strength of it was added. */
+  /** `showBones` and `showTissue` open these panels, the latter at a part of the face. `strengthChanged` is called with the name of a muscle, branch or side after a variant with another strength of it was added. */
   constructor(private readonly state: StudioState, private readonly edits: Edits, private readonly strengthChanged: (gain: string) => void,
-    private readonly showBones: () => void,
+    private readonly showBones: () => void, private readonly showTissue: (region: string) => void,
   ) {
     this.menu = menuOf(at('what-if'), words.whatIf, (sheet, close) => {
       const [sides, ...muscles] = this.strengths((gain, percent) => tryChange(() => this.addWeaker(gain, percent)));
-      fillChooser(sheet, [...sides, ...this.presetChoices(), ...this.boneChoices(), ...muscles.flat(), this.copy()], usualPercent, close);
+      fillChooser(sheet, [...sides, ...this.presetChoices(), ...this.boneChoices(), ...this.volumeChoices(), ...muscles.flat(), this.copy()], close);
     });
   }
 
@@ -35,12 +41,12 @@ export class WhatIf {
   fillChange(sheet: HTMLElement, close: () => void, instead: string | null): void {
     const value = this.edits.value(gainKey);
     const gains = isRecord(value) ? (value as Record<string, number>) : {};
-    const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : usualPercent;
+    const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : strength.usual;
     const take: Take = (gain, percent) => {
       const { [instead ?? '']: _before, ...kept } = gains;
       void this.edits.commit({ [gainKey]: { ...kept, [gain]: percent / 100 } });
     };
-    fillChooser(sheet, this.strengths(take).flat(), usual, close);
+    fillChooser(sheet, this.strengths(take, usual).flat(), close);
   }
 
   /** Moves the keyboard focus to a face's tab. */
@@ -59,11 +65,11 @@ export class WhatIf {
   }
 
   /** What muscles.gain may name: sides with branches, and single muscles. */
-  private strengths(take: Take): Choice[][] {
+  private strengths(take: Take, usual = strength.usual): Choice[][] {
     const { muscles } = this.state;
     const both = (group: string, stem: string, called: (side: string) => string): Choice[] =>
       (['R', 'L'] as const).map((side) => ({
-        group, value: `${stem}_${side}`, text: upper(called(words.sideNames[side])), detail: words.atPercent, strength: true,
+        group, value: `${stem}_${side}`, text: upper(called(words.sideNames[side])), detail: words.atPercent, amount: { ...strength, usual },
         take: (percent) => take(`${stem}_${side}`, percent),
       }));
     const branches = [...new Set(muscles.map(({ branch }) => branch))].flatMap((branch) => {
@@ -90,19 +96,32 @@ export class WhatIf {
   }
 
   private boneChoices(): Choice[] {
-    return boneParts.map((part) => {
-      const changes = { [boneKey]: withMove(movesOf(this.state.valuesOf(0)[boneKey]), { ...moveOf([], part), move_mm: [0, 0, usualMoveMm] }) };
-      return {
-        group: words.boneGroup, value: `bone ${part}`, text: words.boneChoice(words.boneParts[part], usualMoveMm), detail: '',
-        take: () => tryChange(() => this.addMoved(changes)),
-      };
-    });
+    const inBase = movesOf(this.state.valuesOf(0)[boneKey]);
+    return boneParts.map((part) => ({
+      group: words.boneGroup, value: `bone ${part}`, text: words.boneChoice(words.boneParts[part]), detail: (mm) => `${mm} mm`, amount: movement,
+      take: (mm) => tryChange(() => this.addSurgery({ [boneKey]: withMove(inBase, { ...moveOf([], part), move_mm: [0, 0, mm] }) }, this.showBones)),
+    }));
   }
 
-  private async addMoved(changes: Record<string, unknown>): Promise<void> {
+  private volumeChoices(): Choice[] {
+    const inBase = this.state.valuesOf(0)[regionKey];
+    const before = Array.isArray(inBase) ? inBase.filter(isRecord) : [];
+    return this.state.regions.flatMap(({ name }) => sidesAndBoth.map((side) => {
+      const region = side ? `${name}_${side}` : name;
+      const value = [...before.filter((row) => row.name !== region)];
+      const own = before.find((row) => row.name === region) ?? { name: region };
+      return {
+        group: words.volumeGroup, value: `volume ${region}`, text: words.regionName(name, side), detail: (ml: number) => `${ml} ml`, amount: volume,
+        take: (ml: number) => tryChange(() => this.addSurgery({ [regionKey]: [...value, { ...own, volume_ml: ml }] }, () => this.showTissue(region))),
+      };
+    }));
+  }
+
+  /** `show` opens the panel of what the new face changes. */
+  private async addSurgery(changes: Values, show: () => void): Promise<void> {
     const face = await this.edits.addFace(briefName(changes, this.state.valuesOf(0), this.state.muscles), 0);
     this.focus(face);
-    this.showBones();
+    show();
     await this.edits.change(face, changes);
   }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All text of the studio's page. Another language is another object of this shape in `languages`.
+import { upper } from '../page/format';
 
 const en = {
   // The frame of the page.
@@ -54,9 +55,9 @@ const en = {
   emptyTitle: 'Something else',
   emptyAdd: 'A copy of the face shown, to change',
   newVariant: 'What if',
-  chooserFind: 'Find a side, a nerve, a muscle, a preset',
+  chooserFind: 'Find a side, a nerve, a muscle, a preset, a bone, filler',
   chooserList: 'What changes',
-  chooserSays: 'A number sets the strength: “zygomatic right 30” is 30 % of what the motion needs; 0 % is a complete palsy.',
+  chooserSays: 'A number sets how much: “zygomatic right 30” is 30 % of what the motion needs (0 %: a complete palsy); “lower jaw 4 mm”, “cheek left 2 ml”.',
   chooserNone: 'Nothing is called so.',
 
   // The question and its answer.
@@ -133,7 +134,7 @@ const en = {
   number: (name: string, unit: string) => (unit ? `${name}, ${unit}` : name),
   regionTitle: 'In one part of the face',
   regionChoose: 'Part',
-  regionBoth: (name: string) => `${name}, both sides`,
+  regionName: (name: string, side: '' | 'L' | 'R') => `${upper(name.replaceAll('_', ' '))}, ${side ? (side === 'R' ? 'right' : 'left') : 'both sides'}`,
   regionStiffness: 'Stiffness of this part',
   regionHint: 'Multiplies Young’s modulus there (tissue.region); 1: as the tissue elsewhere',
   volume: 'Volume added',
@@ -231,6 +232,7 @@ const en = {
   bonesSay: 'Surgery: moves a segment of bone of the face shown, by these figures or by its arrows over the face. The tissue follows, then the same muscles act. No medical device.',
   bonesOwn: 'The bones are the person’s own.',
   bonesGuessed: 'The bones are estimated from the skin; a CT would show the person’s own (anatomy.ct).',
+  bonesThrough: 'Show the bones through the skin',
   bonePart: 'Segment of bone',
   boneParts: { maxilla: 'Upper jaw', mandible: 'Lower jaw', chin: 'Chin' } as Record<string, string>,
   boneCut: 'Cut',
@@ -253,7 +255,8 @@ const en = {
   boneRatio: 'Of the bone',
   bonePublished: (low: string, high: string) => `published ${low} to ${high}`,
   boneGroup: 'Surgery: a bone is moved',
-  boneChoice: (part: string, mm: number) => `${part} ${mm} mm forward`,
+  boneChoice: (part: string) => `${part} forward`,
+  volumeGroup: 'Filler or an implant: volume is added',
 
   // Figures.
   figures: 'Figures',
@@ -318,6 +321,13 @@ const en = {
   // CT.
   ct: 'CT',
   ctSay: 'What was found in the CT. Press a picture to see it whole.',
+  ctSlice: 'Slice of the CT',
+  ctAxes: ['Sagittal', 'Axial', 'Coronal'],
+  ctAlong: 'Place of the slice',
+  ctBone: 'Bone from, HU',
+  ctBoneHint: 'What has more is bone (--bone-hu of hyperex ct)',
+  ctBonesAnew: 'Find the bones anew',
+  ctFinding: 'Finding the bones …',
   ctPictures: { slices: 'Slices, with the outlines of skin, skull and jaw', bones_through_skin: 'The bones through the skin', thickness: 'Thickness of the soft tissue' } as Record<string, string>,
 
   // Landmarks.

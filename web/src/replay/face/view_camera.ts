@@ -32,7 +32,7 @@ export class ViewCamera {
   lookFrom(view: View): void {
     const yaw = radians(yawDegrees[view]);
     const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).normalize();
-    this.camera.position.copy(this.centre).addScaledVector(from, this.distance());
+    this.camera.position.copy(this.centre).addScaledVector(from, this.distance(from));
     this.controls.target.copy(this.centre);
     this.update();
   }
@@ -55,16 +55,20 @@ export class ViewCamera {
 
   /** For a picture of another shape: nearer or farther, in the same direction. */
   fit(aspect: number): void {
-    const before = this.distance();
+    const from = this.camera.position.clone().sub(this.controls.target).normalize();
+    const before = this.distance(from);
     this.camera.aspect = aspect;
     this.camera.updateProjectionMatrix();
-    this.zoom(before / this.distance());
+    this.zoom(before / this.distance(from));
   }
 
-  /** The distance at which the face fills the picture, m. */
-  private distance(): number {
-    const half = Math.max(this.size.y, this.size.x / Math.max(this.camera.aspect, 0.1)) / 2;
-    return (1.06 * half) / Math.tan(radians(this.camera.fov) / 2) + this.size.z / 4;
+  /** The distance (m) at which the face fills the picture, seen from a direction: in profile its depth is the width. */
+  private distance({ x, z }: Vector3): number {
+    const { size } = this;
+    const across = Math.hypot(x, z) || 1;
+    const [side, front] = [Math.abs(x) / across, Math.abs(z) / across];
+    const half = Math.max(size.y, (front * size.x + side * size.z) / Math.max(this.camera.aspect, 0.1)) / 2;
+    return (1.06 * half) / Math.tan(radians(this.camera.fov) / 2) + (front * size.z + side * size.x) / 4;
   }
 
   private update(): void {
