@@ -66,7 +66,10 @@ void SceneReader::settle_variant(const json& block, const std::string& at) {
   variant.changes = json::object();
   for (const auto& [key, value] : changes) {
     const bool of_preset = !lines_.count(at + "." + key) && block.contains("preset");
-    const std::string place = at + "." + (of_preset ? "preset" : key);
+    std::string place = at + "." + (of_preset ? "preset" : key);
+    // surgery.bone may be written as bone.
+    if (const std::string brief = at + place.substr(place.rfind('.')); in_file(brief).line > 0)
+      place = brief;
     if (find_key(key) != nullptr && !may_vary(key)) {
       complain(in_file(place), place, value, "a key of what may vary: " + what_may_vary());
       continue;

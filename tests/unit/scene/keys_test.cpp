@@ -154,7 +154,8 @@ TEST(Keys, EachReachesItsFieldFromSet) {
                                                      "solver.newmark_beta = 0.5\n");
     const json value = expected_echo(key, other_value(key), folder / "");
     std::vector<std::string> overrides = {key.name + "=" + toml(value)};
-    if (key.name.starts_with("muscles.")) overrides.push_back("drive.by=muscles");
+    if (key.name.starts_with("muscles.") || key.name.starts_with("surgery."))
+      overrides.push_back("drive.by=muscles");
     const Scene scene = read_scene(file, overrides);
     EXPECT_EQ(key.get(scene), value);
     EXPECT_EQ(scene.origins.at(key.name).file, "--set");
