@@ -6,6 +6,7 @@
 #include "hyperex/anatomy/eyeballs.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/report/face_backing.hpp"
 
@@ -18,9 +19,8 @@ using Eigen::Index;
 constexpr double kFaint = 0.6;
 
 /// Where each point of the scan lies in the canonical face's texture: |points| x 3, the third 0.
-Points texture_places(const io::Landmarks& landmarks, const Points& points) {
+Points texture_places(const anatomy::KnownLandmarks& known, const Points& points) {
   const face::CanonicalFace& canonical = face::canonical_face();
-  const anatomy::KnownLandmarks known = anatomy::known_landmarks(landmarks);
   Points places = Points::Zero(Index(known.names.size()), 3);
   for (std::size_t i = 0; i < known.names.size(); ++i) {
     const std::vector<int>& vertices = canonical.landmarks.at(known.names[i]);
@@ -33,6 +33,17 @@ Points texture_places(const io::Landmarks& landmarks, const Points& points) {
   return place.at_all(points);
 }
 
+/// Strength of the painted features at each point. The texture has no place for the back of a head,
+/// where it would show the face once more: they fade behind the landmarks.
+Eigen::VectorXd strength_at(const anatomy::KnownLandmarks& known, const face::FaceFrame& frame,
+                            const Points& points) {
+  constexpr double kFade_m = 0.03;
+  const double back_m = frame.local_points(known.given).col(2).minCoeff() - kFade_m;
+  const Eigen::ArrayXd share =
+      ((frame.local_points(points).col(2).array() - back_m) / kFade_m).max(0).min(1);
+  return kFaint * share.square() * (3 - 2 * share);
+}
+
 }  // namespace
 
 io::VertexColours complexion(const simulate::Performance& performance, face::SkinTone tone) {
@@ -41,13 +52,16 @@ io::VertexColours complexion(const simulate::Performance& performance, face::Ski
   if (!anatomy::face_corners(landmarks)) return colours;
   const face::SkinPicture& skin = face::painted_skin(tone, face::SkinDetail::soft);
   const auto plain = face::tone_colour(tone);
-  const Points places = texture_places(landmarks, performance.skin_rest.points);
+  const anatomy::KnownLandmarks known = anatomy::known_landmarks(landmarks);
+  const Points places = texture_places(known, performance.skin_rest.points);
+  const Eigen::VectorXd strength =
+      strength_at(known, face::face_frame(landmarks), performance.skin_rest.points);
   colours.resize(places.rows(), 4);
   for (Index v = 0; v < places.rows(); ++v) {
     const auto painted = skin.at(places(v, 0), places(v, 1));
     for (int k = 0; k < 3; ++k) {
       const double shown =
-          std::lerp(double(plain[std::size_t(k)]), double(painted[std::size_t(k)]), kFaint);
+          std::lerp(double(plain[std::size_t(k)]), double(painted[std::size_t(k)]), strength[v]);
       colours(v, k) = static_cast<std::uint8_t>(std::lround(shown));
     }
     colours(v, 3) = 255;

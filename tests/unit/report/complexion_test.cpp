@@ -45,6 +45,21 @@ TEST(Complexion, CarriesThePaintedSkinToTheScan) {
   EXPECT_LT(off, 4) << "of 255 levels";
 }
 
+TEST(Complexion, ShowsNoFaceOnTheBackOfTheHead) {
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
+  simulate::Performance still = still_face(face);
+  // The same surface once more, 15 cm behind.
+  const Eigen::Index count = still.skin_rest.points.rows();
+  const Vec3 forward = Eigen::AngleAxisd(0.7, Vec3(1, 2, -1).normalized()) * Vec3::UnitZ();
+  still.skin_rest.points.conservativeResize(2 * count, 3);
+  still.skin_rest.points.bottomRows(count) =
+      still.skin_rest.points.topRows(count).rowwise() - 0.15 * forward.transpose();
+  const io::VertexColours colours = complexion(still, face::SkinTone::light);
+  const auto plain = face::tone_colour(face::SkinTone::light);
+  for (Eigen::Index v = count; v < 2 * count; ++v)
+    for (int k = 0; k < 3; ++k) ASSERT_EQ(colours(v, k), plain[std::size_t(k)]) << v;
+}
+
 TEST(Complexion, IsNoneWithoutLandmarks) {
   simulate::Performance still = still_face(anatomy::embedded_face());
   still.landmarks = {};
