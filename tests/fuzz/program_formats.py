@@ -46,7 +46,7 @@ SURGERY_SCENE = (
     b'bone = [{ part = "maxilla", move_mm = [0, 3, 0] }, { part = "skull", move_mm = [1, 0, 0] }]\n')
 BONES_SCENE = (
     b'scan = { file = "face.ply", unit = "mm", landmarks = "l.json" }\nmotion.file = "embedded"\n'
-    b'anatomy = { skull = "bone.ply", mandible = "jaw.ply" }\n[[variant]]\n'
+    b'anatomy = { skull = "bone.ply", mandible = "jaw.ply" }\n[[variant]]\nname = "v"\n'
     b'bone = [{ part = "mandible", move_mm = [0, 0, 6] }]\n')
 STUDY = (b'title = "s"\nscene = "s.toml"\nout = "swept"\n[set]\nmesh.element_size_mm = 15\nmesh.layers = 1\n'
          b'time.end_s = 0.05\noutput = { vtu = false, glb = false, report = false, picture_times_s = [0] }\n[grid]\n'

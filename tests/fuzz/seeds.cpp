@@ -207,11 +207,10 @@ Seeds scene_seeds() {
       "[[tissue.region]]\nname = \"cheek_R\"\nyoung_factor = 5\n"
       "[drive]\npoints = [\"ibug68_48\", \"ibug68_54\"]\n[[variant]]\nname = \"stiff\"\n"
       "tissue = { young_kpa = 400, density_kg_m3 = 1_000 }\n",
-      "scan.file = \"embedded\"\nmotion.file = \"embedded\"\nanatomy = { ct = \"ct\" "
-      "}\n[[variant]]\n"
-      "bone = [{ part = \"mandible\", cut = \"bsso\", move_mm = [0, 1.5, 6], turn_deg = [-2, 0, "
-      "1], "
-      "cut_shift_mm = 3 }]\ntissue.region = [{ name = \"cheek_R\", volume_ml = 2 }]\n",
+      "scan.file = \"embedded\"\nmotion.file = \"embedded\"\nanatomy = { ct = \"ct\" }\n"
+      "[[variant]]\nname = \"v\"\nbone = [{ part = \"mandible\", cut = \"bsso\", "
+      "move_mm = [0, 1.5, 6], turn_deg = [-2, 0, 1], cut_shift_mm = 3 }]\n"
+      "tissue.region = [{ name = \"cheek_R\", volume_ml = 2 }]\n",
       "scan.file = 'embedded'\nmotion.file = \"\"\"embedded\"\"\"\noutput.vtu = false\n"
       "output.picture_times_s = [0.1, 0.2]\ntime.end_s = 1 # s\n"};
 }
