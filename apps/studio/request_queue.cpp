@@ -4,15 +4,16 @@
 namespace hyperex::studio {
 
 bool is_live(const Request& request) {
-  return request.name == "set" && request.fields.at("live").get<bool>();
+  return request.name == "ct_slice" ||
+         (request.name == "set" && request.fields.at("live").get<bool>());
 }
 
 namespace {
 
 /// Whether the effect of `request` is overwritten by `later`.
 bool replaces(const Request& later, const Request& request) {
-  return is_live(request) && later.name == "set" &&
-         later.fields.at("face") == request.fields.at("face");
+  if (!is_live(request) || later.name != request.name) return false;
+  return request.name == "ct_slice" || later.fields.at("face") == request.fields.at("face");
 }
 
 }  // namespace

@@ -12,11 +12,11 @@
 
 namespace hyperex::studio {
 
-/// Whether the request comes from a slider that is being dragged.
+/// Whether the request comes from a slider that is being dragged: a change, or a slice of a CT.
 bool is_live(const Request& request);
 
 /// Requests on their way from the network's thread to the thread that answers them. Of consecutive
-/// live changes of one face only the last is answered.
+/// live changes of one face, and of consecutive slices, only the last is answered.
 class RequestQueue {
  public:
   static constexpr std::size_t kMost = 256;

@@ -58,8 +58,8 @@ void Session::open_ct(const fs::path& file, const fs::path& recording) {
 }
 
 OpenCt& Session::require_ct() {
-  require_face();
-  if (!ct_) throw InputError("the open face is not of a CT that was opened in this session");
+  if (!ct_ || require_face().scene().anatomy.ct.empty())
+    throw InputError("the open face is not of a CT that was opened in this session");
   return *ct_;
 }
 
@@ -74,14 +74,14 @@ void Session::send_ct_pictures() {
       const std::string bytes = read_file(file);
       pictures[name] = block.add("uint8", bytes.data(), bytes.size());
     }
-  json head = {{"event", "ct"}, {"pictures", pictures}, {"measured", ct_ != nullptr}};
+  json head = {{"event", "ct"}, {"pictures", pictures}, {"measured", ct_ && !folder.empty()}};
   if (const auto bone_hu = bone_hu_of(folder)) head["bone_hu"] = *bone_hu;
   send_(binary_message(head, block), true, "ct");
 }
 
 json Session::ct_bones(const json& fields) {
   OpenCt& ct = require_ct();
-  ct::CtOptions options;
+  ct::CtOptions options = ct.options_of(face_->scene().anatomy.ct);
   if (fields.contains("skull") != fields.contains("mandible"))
     throw InputError("skull and mandible are given together; expected both or neither");
   if (fields.contains("skull"))
@@ -89,6 +89,7 @@ json Session::ct_bones(const json& fields) {
   if (fields.contains("bone_hu")) options.bone_hu = fields.at("bone_hu");
   report_progress("finding the bones anew");
   const fs::path folder = write_bones(ct::face_of_series(ct::SeriesVolume(ct.series()), options));
+  ct.options_of(fs::absolute(folder)) = options;
   commit(scene::with_value(now_.text, "anatomy.ct", fs::absolute(folder).string()));
   report_progress("");
   return json::object();
@@ -105,7 +106,7 @@ json Session::ct_slice(const json& fields) {
                      {"caption", slice.caption},
                      {"picture", block.add("uint8", png.data(), png.size())}};
   send_(binary_message(head, block), true, "");
-  return json::object();
+  return {{"superseded", false}};
 }
 
 }  // namespace hyperex::studio

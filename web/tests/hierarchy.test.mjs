@@ -274,19 +274,24 @@ test('one word for stiffness', async () => {
 test('a number at the end of what is typed is an amount, in a preset’s name it is not', async () => {
   const { matching, readQuery } = await imported('studio/chooser.ts');
   const choice = (text, amount) => ({ group: 'g', value: text, text, detail: '', amount, take: () => {} });
-  const amount = (unit, most) => ({ unit, usual: 1, most });
+  const amount = (unit, most) => ({ unit, usual: 1, least: unit === '%' ? 0 : -most, most });
   const all = [
-    choice('Right side', amount('%', 200)), choice('Source model 2'), choice('Lower jaw forward', amount('mm', 30)),
+    choice('Right side', amount('%', 200)), choice('Source model 2'), choice('Lower jaw', amount('mm', 30)),
     choice('Cheek, left', amount('ml', 30)),
   ];
   const found = (typed) => matching(all, typed).map(({ text }) => text);
   assert.deepEqual(found('model 2'), ['Source model 2']);
   assert.deepEqual(found('side right 30 %'), ['Right side']);
-  assert.deepEqual(found('lower jaw 6 mm'), ['Lower jaw forward']);
+  assert.deepEqual(found('lower jaw 6 mm'), ['Lower jaw']);
   assert.deepEqual(found('left cheek 2,5 ml'), ['Cheek, left']);
+  assert.deepEqual(found('Cheek, left 2 ml'), ['Cheek, left'], 'as the list writes it');
   assert.deepEqual(found('left cheek 40 ml'), [], 'more than may be');
+  assert.deepEqual(found('left cheek 0 ml'), [], 'no change');
+  assert.deepEqual(found('lower jaw -4 mm'), ['Lower jaw']);
+  assert.equal(readQuery('lower jaw -4 mm').amount, -4);
+  assert.deepEqual(found('right side -4'), []);
   assert.deepEqual(found('left cheek 2 mm'), [], 'another unit');
-  assert.deepEqual(found('20'), ['Right side', 'Lower jaw forward', 'Cheek, left']);
+  assert.deepEqual(found('20'), ['Right side', 'Lower jaw', 'Cheek, left']);
   assert.deepEqual(found('100%'), ['Right side']);
   assert.equal(readQuery('side right 30').amount, 30);
   assert.equal(readQuery('cheek 1.5 ml').amount, 1.5);

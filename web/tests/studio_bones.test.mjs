@@ -144,14 +144,14 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     for (const picture of await page.locator('.ct-pictures img').all()) assert.ok(await picture.evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
     // Its slices: one of each kind, along the head.
     const caption = page.locator('.ct-slices output');
-    await page.waitForFunction(() => /^axial, y = \d+/.test(document.querySelector('.ct-slices output').value));
+    await page.waitForFunction(() => /^axial, y = -?\d+ mm/.test(document.querySelector('.ct-slices output').value));
     const [middle, source] = [await caption.textContent(), await page.locator('.ct-slices img').getAttribute('src')];
     await page.locator('.ct-slices input[type=range]').focus();
     for (let k = 0; k < 20; ++k) await page.keyboard.press('ArrowRight');
     await page.waitForFunction((old) => document.querySelector('.ct-slices output').value !== old, middle);
     assert.notEqual(await page.locator('.ct-slices img').getAttribute('src'), source);
     await page.locator('.ct-slices').getByRole('button', { name: 'Coronal' }).click();
-    await page.waitForFunction(() => /^coronal, z = \d+, from the front$/.test(document.querySelector('.ct-slices output').value));
+    await page.waitForFunction(() => /^coronal, z = -?\d+ mm, from the front$/.test(document.querySelector('.ct-slices output').value));
     assert.ok(await page.locator('.ct-slices img').evaluate((image) => image.decode().then(() => image.naturalWidth > 300)));
     const boneHu = page.locator('.ct-slices input[type=number]');
     assert.ok(Number(await boneHu.inputValue()) > 150);
@@ -169,28 +169,35 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     const [, moved] = await row.locator('th, td').allInnerTexts();
     assert.ok(Number(/([\d.]+) forward/.exec(moved)[1]) > 4.8, moved);
     await page.locator('[data-mode=single]').click();
-    await page.getByRole('button', { name: 'Skull and jaw are divided wrongly' }).click();
-    const { x, y, width, height } = await page.locator('#face').boundingBox();
     const status = page.locator('.bones-panel [role=status]');
     const before = await page.locator('.ct-pictures img').first().getAttribute('src');
-    await page.mouse.click(x + 0.5 * width, y + 0.28 * height);
-    await page.waitForFunction(() => /lower jaw/.test(document.querySelector('.bones-panel [role=status]').textContent));
-    await page.mouse.click(x + 0.5 * width, y + 0.72 * height);
-    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('ct-2'));
-    await settled();
+    const divideInto = async (folder) => {
+      await page.getByRole('button', { name: 'Skull and jaw are divided wrongly' }).click();
+      const { x, y, width, height } = await page.locator('#face').boundingBox();
+      await page.mouse.click(x + 0.5 * width, y + 0.28 * height);
+      await page.waitForFunction(() => /lower jaw/.test(document.querySelector('.bones-panel [role=status]').textContent));
+      await page.mouse.click(x + 0.5 * width, y + 0.72 * height);
+      await page.waitForFunction((name) => document.getElementById('scene-text').textContent.includes(name), folder);
+      await settled();
+    };
+    await divideInto('ct-2');
     assert.equal(await status.textContent(), '');
     // Its pictures are new.
     await page.waitForFunction((old) => document.querySelector('.ct-pictures img').getAttribute('src') !== old, before);
     await page.click('#undo');
     await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('ct-2'));
     await settled();
-    // Another value of bone.
+    // Another threshold of bone; a division after it keeps it.
     await page.click('#open-files');
     const other = String(Number(await boneHu.inputValue()) + 60);
     await boneHu.fill(other);
     await page.getByRole('button', { name: 'Find the bones anew' }).click();
     await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('ct-3'));
     await settled();
+    assert.equal(await boneHu.inputValue(), other);
+    await page.click('#open-files');
+    await divideInto('ct-4');
+    await page.click('#open-files');
     assert.equal(await boneHu.inputValue(), other);
     // Another face has no CT.
     const divide = page.getByRole('button', { name: 'Skull and jaw are divided wrongly' });

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 #include "hyperex/render/canvas.hpp"
 
@@ -60,7 +61,9 @@ render::Image HeadSlices::picture(int axis, double place_m) const {
 
 std::string HeadSlices::caption(int axis, double place_m) {
   const View& view = kViews[std::size_t(axis)];
-  return fmt::format("{}, {} = {:.0f}, {}", view.name, view.letter, 1e3 * place_m, view.seen);
+  // Without a negative zero.
+  return fmt::format("{}, {} = {:.0f} mm, {}", view.name, view.letter,
+                     std::round(1e3 * place_m) + 0.0, view.seen);
 }
 
 }  // namespace hyperex::ct

@@ -23,7 +23,7 @@ class HeadSlices {
   /// The slice at a place along an axis, with the contours of skin, skull and mandible. The
   /// subject's sides are marked where they lie beside each other.
   render::Image picture(int axis, double place_m) const;
-  /// "axial, y = 302, from below", lengths in mm.
+  /// "axial, y = 302 mm, from below".
   static std::string caption(int axis, double place_m);
 
  private:

@@ -52,7 +52,7 @@ render::Image draw_slices(const CtFace& face) {
   const HeadSlices slices(face.series.volume, face.skin, face.bones);
   render::ContactSheet sheet;
   sheet.title = "Slices, with the surfaces drawn from them";
-  sheet.note = "skin: yellow; skull: blue; mandible: pink; lengths as in the outputs, mm";
+  sheet.note = "skin: yellow; skull: blue; mandible: pink; lengths as in the outputs";
   sheet.columns = 3;
   const auto add = [&](int axis, double place_m) {
     sheet.pictures.push_back(

@@ -144,13 +144,13 @@ render::Image draw_level(const BeforeAndAfter& both) {
   return canvas.image();
 }
 
-/// The midline where surgery moves it, else the level at which the face changes most.
+/// The midline where surgery moves its landmarks, else the level at which the face changes most.
 render::SheetPicture draw_change(const BeforeAndAfter& both,
                                  const std::vector<metrics::SoftTissueMove>& moves) {
-  constexpr double kSeen_mm = 0.2;
+  const double seen_mm = 0.5 * metrics::greatest_change_at_rest_mm(both.before, both.after);
   const std::vector<NamedPlace> places = named_places(both, moves);
   if (std::any_of(places.begin(), places.end(),
-                  [](const NamedPlace& one) { return one.moved_mm > kSeen_mm; }))
+                  [&](const NamedPlace& one) { return one.moved_mm > seen_mm; }))
     return {draw_midline(both, places), "midline at rest: before grey, after red"};
   return {draw_level(both),
           "level at rest, from below: before grey, after red",
@@ -182,11 +182,8 @@ void draw_surgery(const Results& base, const session::VariantRun& run,
       0, std::max(0.1, metrics::greatest_change_at_rest_mm(both.before, both.after))};
   render::ContactSheet sheet;
   sheet.title = run.scene.title;
-  sheet.note = fmt::format(
-      "before and after surgery: at rest, and at {:.2f} s; lower right: the midline at rest, "
-      "before "
-      "(grey) and after (red)",
-      both.before.frame_time_s[both.frames[1]]);
+  sheet.note = fmt::format("before and after surgery: at rest, and at {:.2f} s",
+                           both.before.frame_time_s[both.frames[1]]);
   sheet.columns = 5;
   sheet.bar = render::ColourBar{range_mm, "change (mm)"};
   sheet.pictures.resize(10);

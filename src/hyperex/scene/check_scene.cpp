@@ -10,7 +10,6 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene_reader.hpp"
 #include "hyperex/scene/values.hpp"
-#include "hyperex/scene/variant_names.hpp"
 
 namespace hyperex::scene {
 

@@ -65,11 +65,11 @@ void SceneReader::settle_variant(const json& block, const std::string& at) {
   variant.folder = variant_folder(variant.name, scene.variants);
   variant.changes = json::object();
   for (const auto& [key, value] : changes) {
-    const bool of_preset = !lines_.count(at + "." + key) && block.contains("preset");
-    std::string place = at + "." + (of_preset ? "preset" : key);
     // surgery.bone may be written as bone.
-    if (const std::string brief = at + place.substr(place.rfind('.')); in_file(brief).line > 0)
-      place = brief;
+    const bool brief = key == "surgery.bone" && lines_.count(at + ".bone") > 0;
+    const std::string own = at + "." + (brief ? "bone" : key);
+    const bool of_preset = !lines_.count(own) && block.contains("preset");
+    const std::string place = of_preset ? at + ".preset" : own;
     if (find_key(key) != nullptr && !may_vary(key)) {
       complain(in_file(place), place, value, "a key of what may vary: " + what_may_vary());
       continue;

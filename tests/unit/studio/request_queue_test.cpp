@@ -35,6 +35,18 @@ TEST(RequestQueue, OfLiveChangesOfOneFaceTheLastCounts) {
   EXPECT_FALSE(queue.pop(kNow, superseded));
 }
 
+TEST(RequestQueue, OfConsecutiveSlicesTheLastCounts) {
+  RequestQueue queue;
+  for (int id = 1; id <= 3; ++id) queue.push({id, "ct_slice", {{"axis", 1}, {"share", 0.1 * id}}});
+  queue.push(set(4, 1, true));
+  std::vector<Request> superseded;
+  EXPECT_EQ(queue.pop(kNow, superseded)->id, 3);
+  EXPECT_EQ(superseded.size(), 2U);
+  superseded.clear();
+  EXPECT_EQ(queue.pop(kNow, superseded)->id, 4);
+  EXPECT_TRUE(superseded.empty());
+}
+
 TEST(RequestQueue, WaitsForWhatComesInTime) {
   RequestQueue queue;
   std::vector<Request> superseded;

@@ -9,6 +9,7 @@ export interface Amount {
   unit: '%' | 'ml' | 'mm';
   /** If no number is typed. */
   usual: number;
+  least: number;
   most: number;
 }
 
@@ -26,7 +27,9 @@ export interface Choice {
   take(amount: number): void;
 }
 
-const plain = (text: string): string => text.toLowerCase().normalize('NFD').replace(/[^a-z0-9%. ]+/g, ' ');
+/** Letters and numbers; a dot stays between digits alone. */
+const plain = (text: string): string =>
+  text.toLowerCase().normalize('NFD').replace(/[^a-z0-9%.]+/g, ' ').replace(/(?<!\d)\.|\.(?!\d)/g, ' ');
 const wordsOf = (text: string): string[] => plain(text).split(' ').filter(Boolean);
 
 export interface Query {
@@ -39,14 +42,17 @@ export interface Query {
 }
 
 export function readQuery(typed: string): Query {
-  const found = /^(.*?)\s*(?<![a-z0-9.])(\d{1,3}(?:\.\d+)?)\s*(%|ml|mm)?\s*$/.exec(plain(typed.replace(',', '.')));
-  const all = wordsOf(typed);
+  const text = typed.toLowerCase().replace(/(\d),(\d)/g, '$1.$2').replaceAll('−', '-');
+  const found = /^(.*?)\s*(?<![a-z0-9.])(-?\d{1,3}(?:\.\d+)?)\s*(%|ml|mm)?\s*$/.exec(text);
+  const all = wordsOf(text);
   return found ? { parts: wordsOf(found[1]), all, amount: Number(found[2]), unit: found[3] ?? '' } : { parts: all, all, amount: null, unit: '' };
 }
 
 /** What is typed as an amount of this choice; null: it is none. */
 function amountOf({ amount: of }: Choice, { amount, unit }: Query): number | null {
-  return of && amount !== null && amount <= of.most && (unit === '' || unit === of.unit) ? amount : null;
+  if (!of || amount === null || (unit !== '' && unit !== of.unit)) return null;
+  // No millimetre and no millilitre are no change.
+  return amount >= of.least && amount <= of.most && (amount !== 0 || of.unit === '%') ? amount : null;
 }
 
 /** The choices that have all words. */

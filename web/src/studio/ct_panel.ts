@@ -8,6 +8,8 @@ import { words } from './words';
 /** The axes of the face across which slices lie: axial, sagittal, coronal. */
 const axes = [1, 0, 2];
 const steps = 400;
+/** As --bone-hu of the program allows. */
+const [leastBoneHu, mostBoneHu] = [50, 2000];
 
 /** An image of a PNG's bytes, with an address of its own. */
 class Picture {
@@ -22,14 +24,16 @@ class Picture {
   }
 
   show(bytes: Uint8Array): void {
-    this.dispose();
+    this.clear();
     this.address = URL.createObjectURL(new Blob([bytes.slice()], { type: 'image/png' }));
     this.image.src = this.link.href = this.address;
   }
 
-  dispose(): void {
+  clear(): void {
     if (this.address) URL.revokeObjectURL(this.address);
     this.address = '';
+    this.image.removeAttribute('src');
+    this.link.removeAttribute('href');
   }
 }
 
@@ -45,6 +49,7 @@ export class CtPanel {
   private asking = false;
   private stale = false;
   private readonly boneHu = element('input');
+  private readonly findAnew = button(words.ctBonesAnew, 'quiet', () => void this.findBones());
   private readonly status = element('p', '', 'why');
 
   constructor(private readonly connection: Connection, private readonly into: HTMLElement) {
@@ -52,6 +57,9 @@ export class CtPanel {
     into.append(element('p', words.ctSay, 'why'), this.browser, this.pictures);
     connection.on('ct', ({ pictures, measured, bone_hu, block }) => {
       this.show(pictures as Record<string, Stretch>, block);
+      // Of another face, perhaps.
+      this.slice.clear();
+      this.caption.textContent = this.status.textContent = '';
       this.browser.hidden = !measured;
       this.boneHu.value = bone_hu === undefined ? '' : String(bone_hu);
       if (measured) void this.ask();
@@ -91,11 +99,13 @@ export class CtPanel {
   }
 
   private boneRow(): HTMLElement {
-    Object.assign(this.boneHu, { type: 'number', step: '10' });
-    const label = element('label', '', 'part');
-    label.title = words.ctBoneHint;
-    label.append(element('span', words.ctBone), this.boneHu, button(words.ctBonesAnew, 'quiet', () => void this.findBones()));
-    return label;
+    Object.assign(this.boneHu, { type: 'number', step: '10', min: String(leastBoneHu), max: String(mostBoneHu) });
+    const row = element('div', '', 'part');
+    const label = element('label', words.ctBone);
+    this.boneHu.id = label.htmlFor = 'bone-hu';
+    row.title = words.ctBoneHint;
+    row.append(label, this.boneHu, this.findAnew);
+    return row;
   }
 
   /** The slice as chosen now. While one is on its way, only the last that is asked for follows. */
@@ -118,17 +128,20 @@ export class CtPanel {
   private async findBones(): Promise<void> {
     const bone_hu = Number(this.boneHu.value);
     if (this.boneHu.value === '' || !Number.isFinite(bone_hu)) return;
+    this.findAnew.disabled = true;
     this.status.textContent = words.ctFinding;
     try {
       await this.connection.request('ct_bones', { bone_hu });
       this.status.textContent = '';
     } catch (error) {
       this.status.textContent = error instanceof Refused ? error.message : '';
+    } finally {
+      this.findAnew.disabled = false;
     }
   }
 
   private show(pictures: Record<string, Stretch>, block: Block): void {
-    for (const picture of this.made.splice(0)) picture.dispose();
+    for (const picture of this.made.splice(0)) picture.clear();
     this.into.hidden = Object.keys(pictures).length === 0;
     this.pictures.replaceChildren(...Object.entries(pictures).map(([name, bytes]) => {
       const text = words.ctPictures[name] ?? name;

@@ -133,6 +133,11 @@ export class Edits {
     await this.send(face, changes, false);
   }
 
+  async removeFace(face: number): Promise<void> {
+    await this.connection.request('remove_variant', { face });
+    if (this.state.source.replay.faces.length > (this.state.scene?.faces.length ?? 0)) this.state.without(face);
+  }
+
   private resume(): void {
     if (!this.wasPlaying || this.underWay) return;
     this.wasPlaying = false;

@@ -211,15 +211,15 @@ export type DiscardAutosaveAnswer = Record<string, never>;
 
 /**
  * Finds the bones of the CT that was opened in this session anew: by one point in each of skull and
- * mandible, by another value of bone, or by both. A change that undo takes back; the events face and ct
- * follow.
+ * mandible, by another threshold of bone, or by both. What is not given stays as it was. A change that undo
+ * takes back; the events face and ct follow.
  */
 export interface CtBonesRequest {
   /** [x, y, z], metres, in the scan's frame; together with mandible */
   skull?: unknown;
   /** the same */
   mandible?: unknown;
-  /** bone is what has more; HU, or the file's own units */
+  /** threshold of bone, HU */
   bone_hu?: number;
 }
 export type CtBonesAnswer = Record<string, never>;
@@ -231,7 +231,10 @@ export interface CtSliceRequest {
   /** of the way from the skin's end at the right, below or behind to the other end */
   share: number;
 }
-export type CtSliceAnswer = Record<string, never>;
+export interface CtSliceAnswer {
+  /** a later request replaced it */
+  superseded: boolean;
+}
 
 /**
  * Compares the present recording with the one before as two visits of one person (docs/visits.md). Writes a
@@ -337,9 +340,9 @@ export interface FaceEvent {
 export interface CtEvent {
   /** slices, bones_through_skin and thickness: arrays with a PNG each; absent where the face has no CT */
   pictures: unknown;
-  /** whether its values are there: ct_bones and ct_slice may be asked */
+  /** whether the CT itself is open: ct_bones and ct_slice may be asked */
   measured: boolean;
-  /** the value of bone by which its bones were found */
+  /** the threshold of bone by which its bones were found, HU */
   bone_hu?: number;
 }
 

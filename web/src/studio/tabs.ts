@@ -57,7 +57,7 @@ export class Tabs {
       }));
       entry(words.rename, () => this.rename(tab, name, i));
       entry(words.duplicate, () => tryChange(() => this.edits.addFace(words.copyOf(name), i)));
-      entry(words.remove, () => tryChange(() => this.remove(i)));
+      entry(words.remove, () => tryChange(() => this.edits.removeFace(i)));
     }));
     return tab;
   }
@@ -103,10 +103,5 @@ export class Tabs {
     tab.replaceChildren(element('i'), field);
     field.focus();
     field.select();
-  }
-
-  private async remove(i: number): Promise<void> {
-    await this.connection.request('remove_variant', { face: i });
-    if (this.state.source.replay.faces.length > (this.state.scene?.faces.length ?? 0)) this.state.without(i);
   }
 }

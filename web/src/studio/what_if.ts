@@ -4,6 +4,7 @@
 import { at } from '../page/dom';
 import { upper } from '../page/format';
 import { menuOf, type Menu } from '../page/menu';
+import { volumeWords } from '../replay/surgery';
 import { boneKey, boneParts, moveOf, movesOf, withMove } from './bone_moves';
 import { briefName } from './brief_name';
 import { fillChooser, type Amount, type Choice } from './chooser';
@@ -17,10 +18,10 @@ import { words } from './words';
 const gainKey = 'muscles.gain';
 const regionKey = 'tissue.region';
 /** A weakened muscle, of its activation in base. */
-const strength: Amount = { unit: '%', usual: 50, most: 200 };
-const movement: Amount = { unit: 'mm', usual: 6, most: 30 };
+const strength: Amount = { unit: '%', usual: 50, least: 0, most: 200 };
+const movement: Amount = { unit: 'mm', usual: 6, least: -30, most: 30 };
 /** A syringe of filler. */
-const volume: Amount = { unit: 'ml', usual: 1, most: 30 };
+const volume: Amount = { unit: 'ml', usual: 1, least: -30, most: 30 };
 type Take = (gain: string, percent: number) => void;
 
 export class WhatIf {
@@ -98,7 +99,7 @@ export class WhatIf {
   private boneChoices(): Choice[] {
     const inBase = movesOf(this.state.valuesOf(0)[boneKey]);
     return boneParts.map((part) => ({
-      group: words.boneGroup, value: `bone ${part}`, text: words.boneChoice(words.boneParts[part]), detail: (mm) => `${mm} mm`, amount: movement,
+      group: words.boneGroup, value: `bone ${part}`, text: words.boneParts[part], detail: words.boneAmount, amount: movement,
       take: (mm) => tryChange(() => this.addSurgery({ [boneKey]: withMove(inBase, { ...moveOf([], part), move_mm: [0, 0, mm] }) }, this.showBones)),
     }));
   }
@@ -108,21 +109,26 @@ export class WhatIf {
     const before = Array.isArray(inBase) ? inBase.filter(isRecord) : [];
     return this.state.regions.flatMap(({ name }) => sidesAndBoth.map((side) => {
       const region = side ? `${name}_${side}` : name;
-      const value = [...before.filter((row) => row.name !== region)];
+      const others = before.filter((row) => row.name !== region);
       const own = before.find((row) => row.name === region) ?? { name: region };
       return {
-        group: words.volumeGroup, value: `volume ${region}`, text: words.regionName(name, side), detail: (ml: number) => `${ml} ml`, amount: volume,
-        take: (ml: number) => tryChange(() => this.addSurgery({ [regionKey]: [...value, { ...own, volume_ml: ml }] }, () => this.showTissue(region))),
+        group: words.volumeGroup, value: `volume ${region}`, text: words.regionName(name, side), detail: volumeWords, amount: volume,
+        take: (ml: number) => tryChange(() => this.addSurgery({ [regionKey]: [...others, { ...own, volume_ml: ml }] }, () => this.showTissue(region))),
       };
     }));
   }
 
   /** `show` opens the panel of what the new face changes. */
   private async addSurgery(changes: Values, show: () => void): Promise<void> {
-    const face = await this.edits.addFace(briefName(changes, this.state.valuesOf(0), this.state.muscles), 0);
+    const face = await this.edits.addFace(briefName(changes, this.state.valuesOf(0), this.state.muscles) || words.newVariant, 0);
     this.focus(face);
     show();
-    await this.edits.change(face, changes);
+    try {
+      await this.edits.change(face, changes);
+    } catch (error) {
+      await this.edits.removeFace(face);
+      throw error;
+    }
   }
 
   private copy(): Choice {

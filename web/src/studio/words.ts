@@ -254,9 +254,9 @@ const en = {
   boneAtRest: 'Moved, mm',
   boneRatio: 'Of the bone',
   bonePublished: (low: string, high: string) => `published ${low} to ${high}`,
-  boneGroup: 'Surgery: a bone is moved',
-  boneChoice: (part: string) => `${part} forward`,
-  volumeGroup: 'Filler or an implant: volume is added',
+  boneGroup: 'Surgery: a bone is moved forward or back',
+  boneAmount: (mm: number) => `${Math.abs(mm)} mm ${mm < 0 ? 'back' : 'forward'}`,
+  volumeGroup: 'Filler or an implant: volume is added or taken away',
 
   // Figures.
   figures: 'Figures',
@@ -324,8 +324,8 @@ const en = {
   ctSlice: 'Slice of the CT',
   ctAxes: ['Sagittal', 'Axial', 'Coronal'],
   ctAlong: 'Place of the slice',
-  ctBone: 'Bone from, HU',
-  ctBoneHint: 'What has more is bone (--bone-hu of hyperex ct)',
+  ctBone: 'Bone threshold, HU',
+  ctBoneHint: 'Values above it are bone (--bone-hu of hyperex ct)',
   ctBonesAnew: 'Find the bones anew',
   ctFinding: 'Finding the bones …',
   ctPictures: { slices: 'Slices, with the outlines of skin, skull and jaw', bones_through_skin: 'The bones through the skin', thickness: 'Thickness of the soft tissue' } as Record<string, string>,
