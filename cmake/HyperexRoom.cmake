@@ -83,7 +83,7 @@ endfunction()
 # Cases may read real data under ${PROJECT_SOURCE_DIR}/../shared and must skip where it is absent.
 # Each bears its folder under tests/ as label: ctest -L unit/io, and the time by room at ctest's end.
 function(hx_test name)
-  cmake_parse_arguments(T "" "TIMEOUT" "SOURCES;LINKS" ${ARGN})
+  cmake_parse_arguments(T "" "TIMEOUT;TOGETHER" "SOURCES;LINKS" ${ARGN})
   add_executable(test_${name} ${T_SOURCES})
   target_include_directories(test_${name} PRIVATE ${PROJECT_SOURCE_DIR}/src ${PROJECT_SOURCE_DIR}/tests)
   target_compile_options(test_${name} PRIVATE ${HYPEREX_WARNINGS})
@@ -102,6 +102,12 @@ function(hx_test name)
   if(HYPEREX_TSAN)  # a whole run takes minutes there
     set(timeout 2400)
   endif()
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60
+  set(others)
+  if(T_TOGETHER)
+    set(others TEST_FILTER "-${T_TOGETHER}.*")
+    add_test(NAME ${name}.${T_TOGETHER} COMMAND test_${name} --gtest_filter=${T_TOGETHER}.*)
+    set_tests_properties(${name}.${T_TOGETHER} PROPERTIES TIMEOUT ${timeout} LABELS ${room})
+  endif()
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}." DISCOVERY_TIMEOUT 60 ${others}
                        PROPERTIES TIMEOUT ${timeout} LABELS ${room})
 endfunction()

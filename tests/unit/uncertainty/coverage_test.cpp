@@ -34,7 +34,7 @@ using hyperex::test::TwinTruth;
 
 /// A patient takes some 17 s on one core.
 int patients() {
-  return hyperex::test::draws(20);
+  return hyperex::test::draws(12);
 }
 
 constexpr double kNoise_m = 3e-4, kGain = 0.5, kCheek = 3;
