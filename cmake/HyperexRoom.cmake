@@ -80,6 +80,7 @@ endfunction()
 # The tests of one room: an executable test_NAME, each of its cases one CTest.
 #   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
 # TIMEOUT: seconds a case may take, 600 by default.
+# TOGETHER: the name of a suite whose cases share costly data. It is one CTest, in one process.
 # Cases may read real data under ${PROJECT_SOURCE_DIR}/../shared and must skip where it is absent.
 # Each bears its folder under tests/ as label: ctest -L unit/io, and the time by room at ctest's end.
 function(hx_test name)

@@ -59,11 +59,6 @@ struct Outlines {
   Points before, after;
 };
 
-Outlines outlines_on(const BeforeAndAfter& both, const Vec3& at, const Vec3& normal) {
-  return {plane_section(both.skin(both.before, 0), at, normal),
-          plane_section(both.skin(both.after, 0), at, normal)};
-}
-
 void draw_outlines(render::Canvas& canvas, const render::Camera& camera, const Outlines& lines) {
   for (const auto& [segments, colour] : {std::pair{&lines.before, kBefore}, {&lines.after, kAfter}})
     for (Eigen::Index i = 0; i + 1 < segments->rows(); i += 2) {
@@ -110,7 +105,10 @@ render::Image draw_midline(const BeforeAndAfter& both, const std::vector<NamedPl
   camera.target = {0, (high_m + kAbove_m + low_m - kBelow_m) / 2,
                    front_m - (0.5 * kSize.width_px - kWords_px) * m_per_px};
   render::Canvas canvas(kSize.width_px, kSize.height_px);
-  draw_outlines(canvas, camera, outlines_on(both, Vec3::Zero(), Vec3::UnitX()));
+  const auto midline_of = [&](const simulate::Performance& of) {
+    return plane_section(both.skin(of, 0), Vec3::Zero(), Vec3::UnitX());
+  };
+  draw_outlines(canvas, camera, {midline_of(both.before), midline_of(both.after)});
   double free_below_px = kSize.height_px - 6;
   for (const NamedPlace& one : places) {
     const render::Projected at =
@@ -131,7 +129,8 @@ render::Image draw_level(const BeforeAndAfter& both) {
   Eigen::Index most = 0;
   const double most_m = (after.points - before.points).rowwise().norm().maxCoeff(&most);
   const Vec3 at = after.points.row(most);
-  const Outlines lines = outlines_on(both, {0, at.y(), 0}, Vec3::UnitY());
+  const Outlines lines{plane_section(before, at, Vec3::UnitY()),
+                       plane_section(after, at, Vec3::UnitY())};
   const double aspect = double(kSize.width_px) / kSize.height_px;
   const render::Camera camera =
       render::framing(points_within(both.box, lines.after), -Vec3::UnitY(), aspect, Vec3::UnitZ());

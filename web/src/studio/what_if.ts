@@ -10,7 +10,7 @@ import { briefName } from './brief_name';
 import { fillChooser, type Amount, type Choice } from './chooser';
 import type { Edits } from './edits';
 import { isRecord, type Preset, type Values } from './messages';
-import { sidesAndBoth } from './region_chooser';
+import { nameOfRegion, sidesAndBoth } from './region_chooser';
 import type { StudioState } from './studio_state';
 import { tryChange } from './try_change';
 import { words } from './words';
@@ -112,13 +112,14 @@ export class WhatIf {
       const others = before.filter((row) => row.name !== region);
       const own = before.find((row) => row.name === region) ?? { name: region };
       return {
-        group: words.volumeGroup, value: `volume ${region}`, text: words.regionName(name, side), detail: volumeWords, amount: volume,
+        group: words.volumeGroup, value: `volume ${region}`, text: nameOfRegion(name, side), detail: volumeWords, amount: volume,
         take: (ml: number) => tryChange(() => this.addSurgery({ [regionKey]: [...others, { ...own, volume_ml: ml }] }, () => this.showTissue(region))),
       };
     }));
   }
 
-  /** `show` opens the panel of what the new face changes. */
+  /** Adds a face with these changes and calls `show`, which opens the panel where the user can edit them. If the server
+   *  refuses the changes, the face is removed again. */
   private async addSurgery(changes: Values, show: () => void): Promise<void> {
     const face = await this.edits.addFace(briefName(changes, this.state.valuesOf(0), this.state.muscles) || words.newVariant, 0);
     this.focus(face);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // All text of the studio's page. Another language is another object of this shape in `languages`.
-import { upper } from '../page/format';
 
 const en = {
   // The frame of the page.
@@ -134,7 +133,7 @@ const en = {
   number: (name: string, unit: string) => (unit ? `${name}, ${unit}` : name),
   regionTitle: 'In one part of the face',
   regionChoose: 'Part',
-  regionName: (name: string, side: '' | 'L' | 'R') => `${upper(name.replaceAll('_', ' '))}, ${side ? (side === 'R' ? 'right' : 'left') : 'both sides'}`,
+  regionBoth: (name: string) => `${name}, both sides`,
   regionStiffness: 'Stiffness of this part',
   regionHint: 'Multiplies Young’s modulus there (tissue.region); 1: as the tissue elsewhere',
   volume: 'Volume added',
