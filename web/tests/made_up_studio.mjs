@@ -109,9 +109,17 @@ class Session {
   requests = [];
   title = 'Made up';
   earlier = '';
+  /** Requests that wait while this is an array. */
+  held = null;
   constructor(socket, remarksOf) {
     Object.assign(this, { socket, remarksOf });
-    socket.onMessage((text) => this.answer(JSON.parse(text)));
+    socket.onMessage((text) => (this.held ? this.held.push(text) : this.answer(JSON.parse(text))));
+  }
+  /** Answers what waits. */
+  release() {
+    const waiting = this.held;
+    this.held = null;
+    for (const text of waiting) this.answer(JSON.parse(text));
   }
   send(message) {
     this.socket.send(JSON.stringify(message));

@@ -94,6 +94,32 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('a slow server: what it sends before it answers a change does not take the change back', async () => {
+    const { page, complaints, session, close } = await openMadeUp(browser, () => []);
+    const slider = page.locator('[data-gain=side_R]');
+    const at = () => slider.evaluate((input) => input.getAttribute('aria-valuetext'));
+    const pull = async () => {
+      await slider.focus();
+      await page.keyboard.press('PageDown');
+      await page.locator('#face').focus(); // let go
+    };
+    session().held = [];
+    await pull();
+    while (session().held.length < 1) await page.waitForTimeout(10); // it asks for a face beside base
+    session().scene();
+    await pull();
+    assert.equal(await at(), '60 %', 'from 80 %');
+    session().release();
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('"side_R":0.6'));
+    assert.equal(await at(), '60 %');
+    // Once it has answered, its word counts: as after a step back.
+    session().faces[1].values = { ...session().faces[1].values, 'muscles.gain': { side_R: 0.3 } };
+    session().scene();
+    await page.waitForFunction(() => document.querySelector('[data-gain=side_R]').getAttribute('aria-valuetext') === '30 %');
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('what if: the slider of the strength that was changed comes into view, and the change reads as a sentence', async () => {
     const { page, complaints, close } = await openMadeUp(browser, () => []);
     await page.locator('#tab-scene').dispatchEvent('click');

@@ -4,7 +4,7 @@
 // another face beside it, which the first change adds.
 import { briefName, isBriefName } from './brief_name';
 import { Refused, type Connection } from './connection';
-import type { Values } from './messages';
+import { isRecord, type Values } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
@@ -14,20 +14,29 @@ export class Edits {
   private waiting: Values | null = null;
   /** Counts releases of sliders: drags before a release are obsolete. */
   private turn = 0;
-  /** Changes of the edited face that the server has not confirmed. */
+  /** Changes that the server has not answered yet. Events that come meanwhile know nothing of them. */
   private readonly drafts = new Map<string, unknown>();
+  /** The face that the drafts are of; null: the one that is being added. */
+  private draftFace: number | null = null;
   private wasPlaying = false;
 
   constructor(
     private readonly state: StudioState, private readonly connection: Connection, private readonly problem: (text: string) => void,
   ) {
-    state.sceneChanged.add(() => this.drafts.clear());
     connection.on('motion', () => this.resume());
   }
 
   /** The value that a key of the edited face has, or will have. */
   value(key: string): unknown {
-    return this.drafts.has(key) ? this.drafts.get(key) : this.state.valuesOf(this.state.edited)[key];
+    const { edited } = this.state;
+    const drafted = this.draftFace === null || this.draftFace === edited;
+    return drafted && this.drafts.has(key) ? this.drafts.get(key) : this.state.valuesOf(edited)[key];
+  }
+
+  /** Strengths of muscles that the edited face changes, or will change: muscles.gain. */
+  get gains(): Record<string, number> {
+    const value = this.value('muscles.gain');
+    return isRecord(value) ? (value as Record<string, number>) : {};
   }
 
   /** Called while a slider is dragged. */
@@ -67,6 +76,7 @@ export class Edits {
       const face = await this.face();
       if (frameFirst) await this.send(face, changes, true).catch(() => {}); // the change itself reports errors
       await this.send(face, changes, false, this.nameFor(face, changes));
+      this.confirm(changes);
     } catch (error) {
       this.drop(error);
     } finally {
@@ -75,7 +85,16 @@ export class Edits {
   }
 
   private draft(changes: Values): void {
+    const { edited, changeBase } = this.state;
+    const face = edited !== 0 || changeBase ? edited : null;
+    if (face !== this.draftFace) this.drafts.clear();
+    this.draftFace = face;
     for (const [key, value] of Object.entries(changes)) this.drafts.set(key, value);
+  }
+
+  /** Later changes of the same keys stay drafts. */
+  private confirm(changes: Values): void {
+    for (const [key, value] of Object.entries(changes)) if (this.drafts.get(key) === value) this.drafts.delete(key);
   }
 
   private async sendWaiting(): Promise<void> {
@@ -113,7 +132,7 @@ export class Edits {
   private face(): Promise<number> {
     const { state } = this;
     if (state.edited !== 0 || state.changeBase) return Promise.resolve(state.edited);
-    this.target ??= this.addFace(words.newVariant, 0);
+    this.target ??= this.addFace(words.newVariant, 0).then((face) => (this.draftFace = face));
     return this.target;
   }
 

@@ -6,7 +6,7 @@ import { upper } from '../page/format';
 import { rememberFold } from '../page/remember';
 import { ActivationCurves } from './activation_curves';
 import type { Edits } from './edits';
-import { isRecord, type MuscleInfo } from './messages';
+import type { MuscleInfo } from './messages';
 import type { Control, RemarkPanel } from './remark_places';
 import { differingGains, type Remark } from './remarks';
 import { linear, Slider } from './slider';
@@ -183,13 +183,8 @@ export class MusclesPanel implements RemarkPanel {
     return box;
   }
 
-  private get gains(): Gains {
-    const value = this.edits.value(gainKey);
-    return isRecord(value) ? (value as Gains) : {};
-  }
-
   private with(name: string, gain: number): Gains {
-    const next = { ...this.gains, [name]: gain };
+    const next = { ...this.edits.gains, [name]: gain };
     if (gain === 1) delete next[name];
     return next;
   }
@@ -199,7 +194,7 @@ export class MusclesPanel implements RemarkPanel {
   }
 
   private mute(name: string): void {
-    const now = this.gains[name] ?? 1;
+    const now = this.edits.gains[name] ?? 1;
     if (now === 0) {
       this.set(this.with(name, this.before.get(name) ?? 1));
       return;
@@ -220,7 +215,7 @@ export class MusclesPanel implements RemarkPanel {
   }
 
   private solo(name: string): void {
-    const { gains } = this;
+    const { gains } = this.edits;
     const face = this.state.nameOf(this.state.edited);
     const alone = this.aloneIn(gains);
     const before = this.beforeSolo.get(face) ?? {};
@@ -238,7 +233,7 @@ export class MusclesPanel implements RemarkPanel {
   private update(): void {
     const { state } = this;
     if (!state.scene) return;
-    const gains = state.gainsOf(state.edited);
+    const { gains } = this.edits;
     const base = state.edited === 0 ? {} : state.gainsOf(0);
     const alone = this.aloneIn(gains);
     for (const [name, { slider, mute, solo }] of this.handles) {
@@ -248,7 +243,7 @@ export class MusclesPanel implements RemarkPanel {
       solo?.setAttribute('aria-pressed', String(alone === name));
     }
     const gainBefore = state.edited === 0 ? 1 : Number(state.valuesOf(0)[motionGain] ?? 1);
-    this.gain?.set(100 * Number(state.valuesOf(state.edited)[motionGain] ?? 1), 100 * gainBefore);
+    this.gain?.set(100 * Number(this.edits.value(motionGain) ?? 1), 100 * gainBefore);
     this.resetAll.disabled = Object.keys(gains).length === 0;
     // It keeps its space after the first change makes muscles drive, so that nothing moves under the pointer.
     const carried = state.scene.drive !== 'muscles';

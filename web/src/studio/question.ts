@@ -48,7 +48,7 @@ export class Question {
       this.built = built;
       this.build(changes);
     }
-    const [own, base] = [state.gainsOf(state.edited), state.gainsOf(0)];
+    const [own, base] = [this.edits.gains, state.gainsOf(0)];
     for (const [gain, slider] of this.sliders) slider.set(100 * (own[gain] ?? 1), 100 * (base[gain] ?? 1));
   }
 
@@ -89,10 +89,10 @@ export class Question {
   private strength(gain: string, of: string): HTMLElement {
     const head = element('span', '', 'change-head');
     head.append(this.chooser(button(of, 'change-chip opens', () => {}), gain), words.questionAt);
-    const set = (value: number) => this.edits.commit({ [gainKey]: { ...this.gains, [gain]: value } });
+    const set = (value: number) => this.edits.commit({ [gainKey]: { ...this.edits.gains, [gain]: value } });
     const slider = new Slider({
       name: words.questionStrength(of), unit: '%', hint: '', course: percent, round: Math.round, low: 0, high: 200, head,
-      live: (value) => this.edits.live({ [gainKey]: { ...this.gains, [gain]: value / 100 } }),
+      live: (value) => this.edits.live({ [gainKey]: { ...this.edits.gains, [gain]: value / 100 } }),
       done: (value) => {
         if (value === null) this.leave({ key: gainKey, text: of, gain });
         else void set(value / 100);
@@ -121,11 +121,6 @@ export class Question {
     return opener;
   }
 
-  private get gains(): Record<string, number> {
-    const value = this.edits.value(gainKey);
-    return isRecord(value) ? (value as Record<string, number>) : {};
-  }
-
   private rows(key: string): Record<string, unknown>[] {
     const value = this.state.valuesOf(this.state.edited)[key];
     return Array.isArray(value) ? value.filter(isRecord) : [];
@@ -134,7 +129,7 @@ export class Question {
   /** Back to what base has. */
   private leave({ key, gain, row }: NamedChange): void {
     if (gain) {
-      const { [gain]: _left, ...kept } = this.gains;
+      const { [gain]: _left, ...kept } = this.edits.gains;
       const before = this.state.gainsOf(0)[gain];
       void this.edits.commit({ [gainKey]: before === undefined ? kept : { ...kept, [gain]: before } });
     } else if (row !== undefined) void this.edits.commit({ [key]: this.rows(key).filter((_, i) => i !== row) });

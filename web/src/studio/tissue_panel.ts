@@ -159,14 +159,13 @@ export class TissuePanel implements RemarkPanel {
     const { state } = this;
     if (!state.scene) return;
     const { edited } = state;
-    const own = state.valuesOf(edited);
     const base = state.valuesOf(0);
     for (const [key, slider] of this.sliders) {
       if (key === thickness) continue;
       const before = edited === 0 ? state.keys.get(key)?.default : base[key];
-      slider.set(Number(own[key]), Number(before));
+      slider.set(Number(this.edits.value(key)), Number(before));
     }
-    for (const [key, slider] of this.ofPart) slider.set(this.valueIn(own[regions], key), this.before(key));
+    for (const [key, slider] of this.ofPart) slider.set(this.valueIn(this.edits.value(regions), key), this.before(key));
     this.showAdded();
     const slider = this.sliders.get(thickness);
     if (!slider) return;

@@ -40,8 +40,7 @@ export class WhatIf {
 
   /** Fills a sheet with what else the face shown may change; `instead`: in the place of that strength. */
   fillChange(sheet: HTMLElement, close: () => void, instead: string | null): void {
-    const value = this.edits.value(gainKey);
-    const gains = isRecord(value) ? (value as Record<string, number>) : {};
+    const { gains } = this.edits;
     const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : strength.usual;
     const take: Take = (gain, percent) => {
       const { [instead ?? '']: _before, ...kept } = gains;
