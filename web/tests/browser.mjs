@@ -13,12 +13,24 @@ export const launch = () =>
     ],
   });
 
+/** The page's pictures have a quarter of the pixels in each direction: most time of a test goes into pixels, and few
+ *  tests look at them. */
+export const fewPixels = (context) =>
+  context.addInitScript(() => {
+    try {
+      sessionStorage.setItem('hyperex.picture-pixels', '0.25');
+    } catch {
+      // A page that may keep nothing has all pixels.
+    }
+  });
+
 /** Waits until the page says that it is ready. `complaints`: errors, warnings and requests. `init`: a
- *  script that runs before the page's own. `readyMs`: from asking for the page until it is ready. */
-export async function openPage(browser, file, { init, ...options } = {}) {
+ *  script that runs before the page's own. `pixels`: the test looks at pictures. `readyMs`: from asking for the page until it is ready. */
+export async function openPage(browser, file, { init, pixels = false, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,
   });
+  if (!pixels) await fewPixels(context);
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(30_000);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The studio's page with a made-up face and a server of a few lines: neither the program nor a build is needed.
 import { readFile } from 'node:fs/promises';
+import { fewPixels } from './browser.mjs';
 import { script, styles } from './modules.mjs';
 
 const address = 'http://127.0.0.1:8123/';
@@ -172,6 +173,7 @@ class Session {
 /** Opens the page; ready once the face is drawn. */
 export async function openMadeUp(browser, remarksOf, { init, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', ...options });
+  await fewPixels(context);
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
   page.setDefaultTimeout(90_000);

@@ -7,6 +7,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { createInterface } from 'node:readline';
 import { fileURLToPath } from 'node:url';
+import { fewPixels } from './browser.mjs';
 
 const root = join(dirname(fileURLToPath(import.meta.url)), '..', '..');
 
@@ -78,11 +79,13 @@ export async function askWhatIf(page, typed) {
   await page.keyboard.press('Enter');
 }
 
-/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. */
-export async function openStudio(browser, address, { ready = true, ...options } = {}) {
+/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. `pixels`: the
+ *  test looks at pictures. */
+export async function openStudio(browser, address, { ready = true, pixels = false, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', acceptDownloads: true, ...options,
   });
+  if (!pixels) await fewPixels(context);
   const page = await context.newPage();
   page.setDefaultTimeout(60_000);
   const complaints = [];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/core/one_thread.hpp"
 
+#include "hyperex/core/blas_kernels.hpp"
 #include "hyperex/core/loaded_symbol.hpp"
 
 namespace hyperex {
@@ -9,6 +10,10 @@ namespace {
 
 using Set = void (*)(int);
 using Get = int (*)();
+
+/// Here, as each program that solves needs this file, and before main(), as no thread is in BLAS
+/// yet.
+[[maybe_unused]] const std::string kernels = choose_blas_kernels();
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How finely pictures are drawn. Without a graphics processor, pictures in motion have few pixels, and the last one is
 // drawn once more with all.
+import { remembered } from '../../page/remember';
 import { drawsInSoftware } from '../software_gl';
 
 /** After this many late pictures in a row, pictures in motion stay coarse: switching back and forth would be visible.
@@ -10,11 +11,15 @@ const lateInARow = 3;
 /** Pixels for each of the page's while something moves: the face has most of the window, and each pixel costs. */
 const inMotion = 0.8;
 const whenLate = 0.7;
+/** Edges are not smoothed: more pixels in each direction make them smooth. */
+const atRest = 2;
 
 export class PicturePace {
   readonly software = drawsInSoftware();
   /** More live shapes follow as fast as they are drawn, computed on the same processor. */
   streaming = false;
+  /** For tests of what does not show in pictures: fewer pixels in each direction. */
+  private readonly share = Number(remembered('picture-pixels') ?? 1);
   private drawnAt = 0;
   private late = 0;
   private timer = 0;
@@ -22,7 +27,12 @@ export class PicturePace {
   /** Pixels of the picture for each of the page's. */
   get ratio(): number {
     if (!this.software) return Math.min(window.devicePixelRatio, 2);
-    return this.late < lateInARow && !this.streaming ? inMotion : inMotion * whenLate;
+    return this.share * (this.late < lateInARow && !this.streaming ? inMotion : inMotion * whenLate);
+  }
+
+  /** Of the picture at rest. */
+  get fineRatio(): number {
+    return this.share * atRest;
   }
 
   /** After a picture that was begun at `time`, ms. `refine` is called when no other follows. */

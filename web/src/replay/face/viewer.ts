@@ -408,7 +408,7 @@ export class FaceViewer {
   /** Draws the picture at rest, with all pixels. */
   private refine(): void {
     if (this.queued) return;
-    this.renderer.setPixelRatio(2);
+    this.renderer.setPixelRatio(this.pace.fineRatio);
     this.draw();
     this.whole = false; // the next one has other pixels
     this.canvas.dataset.atRest = 'true';

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A processor newer than OpenBLAS gets kernels for its vector instructions.
+#include "hyperex/core/blas_kernels.hpp"
+
+#include <cblas.h>
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <vector>
+
+#include "hyperex/core/loaded_symbol.hpp"
+
+extern "C" char* openblas_get_corename(void);
+
+namespace hyperex {
+namespace {
+
+/// As OpenBLAS chooses for a processor that it does not know.
+bool fall_back() {
+  const auto leave = loaded_symbol<void (*)()>("gotoblas_dynamic_quit");
+  const auto choose = loaded_symbol<void (*)()>("gotoblas_dynamic_init");
+  if (!leave || !choose) return false;
+  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
+  leave();
+  choose();
+  return true;
+}
+
+class BlasKernels : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (std::getenv("OPENBLAS_CORETYPE")) GTEST_SKIP() << "the user has chosen";
+    if (!fall_back()) GTEST_SKIP() << "this OpenBLAS has one set of kernels";
+  }
+  void TearDown() override {
+    ::unsetenv("OPENBLAS_CORETYPE");
+    choose_blas_kernels();
+  }
+};
+
+TEST_F(BlasKernels, OfAnUnknownProcessorAreThoseThatItCanRun) {
+  ::unsetenv("OPENBLAS_CORETYPE");
+#if defined(__x86_64__)
+  if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the fallback is all that it can run";
+  const std::string expected = __builtin_cpu_supports("avx512dq") ? "SkylakeX" : "Haswell";
+  EXPECT_EQ(choose_blas_kernels(), expected);
+  EXPECT_FALSE(std::getenv("OPENBLAS_CORETYPE")) << "programs started from here choose themselves";
+#endif
+  constexpr int n = 60;
+  const std::vector<double> a(n * n, 1.5), b(n * n, 2);
+  std::vector<double> product(n * n);
+  cblas_dgemm(CblasColMajor, CblasNoTrans, CblasNoTrans, n, n, n, 1, a.data(), n, b.data(), n, 0,
+              product.data(), n);
+  for (const double value : product) ASSERT_EQ(value, 3 * n);
+}
+
+TEST_F(BlasKernels, ThatTheUserHasChosenStay) {
+  EXPECT_EQ(choose_blas_kernels(), "Prescott");
+  EXPECT_STREQ(openblas_get_corename(), "Prescott");
+}
+
+}  // namespace
+}  // namespace hyperex
