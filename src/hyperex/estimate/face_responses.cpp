@@ -20,9 +20,13 @@ muscles::MuscleTable moved(muscles::MuscleTable table, double out_mm, double up_
   return table;
 }
 
+BandForces forces_of(const simulate::MuscleModel& model) {
+  return {model.force().sparseView(), model.wide_force().sparseView()};
+}
+
 /// (b - a) / step
-Bands change(const Bands& a, const simulate::MuscleModel& b, double step) {
-  return {(b.force() - a.narrow) / step, (b.wide_force() - a.wide) / step};
+BandForces change(const BandForces& a, const BandForces& b, double step) {
+  return {(b.narrow - a.narrow) / step, (b.wide - a.wide) / step};
 }
 
 /// The places' displacement as rows of the outer nodes' unknowns, transposed: 3 |nodes| x 3 P.
@@ -55,7 +59,7 @@ FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks
   const simulate::MuscleModel own = model(options, nullptr);
   lines_ = own.lines();
   boundary_.emplace(mesh, landmarks, simulate::muscle_support(options.support, options.muscles));
-  muscles_ = {own.force(), own.wide_force()};
+  muscles_ = forces_of(own);
   jaw_ = own.jaw_force();
   for (const KnownLoad& load : loads) loads_.push_back(unit_forces_of(load, mesh, system_.mass));
   for (int way = 0; way < 2; ++way) {
@@ -63,7 +67,8 @@ FaceResponses::FaceResponses(const tissue::TissueMesh& mesh, const io::Landmarks
     beside.muscles.own =
         moved(options.muscles.table(), way == 0 ? kLineStep_mm : 0, way == 0 ? 0 : kLineStep_mm);
     const double step_m = 1e-3 * kLineStep_mm * lines_.front().scale;
-    moved_lines_[std::size_t(way)] = change(muscles_, model(beside, own.order()), step_m);
+    moved_lines_[std::size_t(way)] =
+        change(muscles_, forces_of(model(beside, own.order())), step_m);
   }
   factor_.emplace(own.stiffness(), boundary_->prescribed(), "estimate", own.order());
   set_stiffness(Eigen::VectorXd::Zero(unknowns()));
@@ -106,7 +111,7 @@ fem::SparseMatrix FaceResponses::stiffness(const fem::Material& material) {
   return system_.stiffness;
 }
 
-Bands FaceResponses::at_points(const Bands& force) const {
+Bands FaceResponses::at_points(const BandForces& force) const {
   return {adjoint_.transpose() * force.narrow, adjoint_.transpose() * force.wide};
 }
 

@@ -17,10 +17,15 @@
 
 namespace hyperex::estimate {
 
-/// Forces of the muscles, or displacements of points by them: one column per muscle at activation 1
-/// (`narrow`, `wide`: the two bands of MuscleOptions::widening).
+/// Displacements of points by the muscles: one column per muscle at activation 1 (`narrow`, `wide`:
+/// the two bands of MuscleOptions::widening).
 struct Bands {
   Eigen::MatrixXd narrow, wide;
+};
+
+/// The forces of the muscles, which act on few nodes each.
+struct BandForces {
+  fem::SparseMatrix narrow, wide;  ///< 3 |nodes| x muscles, N
 };
 
 /// How points move with what acts on the face.
@@ -68,7 +73,7 @@ class FaceResponses {
   /// The derivative of Young's moduli by one logarithm.
   std::vector<double> young_by(const Eigen::VectorXd& logs, Eigen::Index which) const;
   fem::SparseMatrix stiffness(const fem::Material& material);
-  Bands at_points(const Bands& force) const;
+  Bands at_points(const BandForces& force) const;
   Eigen::VectorXd force(const Acting& acting) const;
   Eigen::MatrixXd by_stiffness_under(const Eigen::VectorXd& force);
 
@@ -77,8 +82,8 @@ class FaceResponses {
   fem::Material own_;  ///< the scene's
   std::vector<muscles::MuscleLine> lines_;
   std::optional<simulate::Boundary> boundary_;
-  Bands muscles_;
-  std::array<Bands, 2> moved_lines_;
+  BandForces muscles_;
+  std::array<BandForces, 2> moved_lines_;
   Eigen::MatrixXd jaw_;
   std::vector<Eigen::MatrixXd> loads_;
   simulate::CarrierMatrix carrier_;

@@ -27,6 +27,16 @@ CtFace face_of(const Volume& volume, const CtOptions& options = {}) {
   return face_of_series(std::move(series), options);
 }
 
+const Volume& small_volume() {
+  static const Volume volume = volume_of(test::small_head());
+  return volume;
+}
+
+const CtFace& small_face() {
+  static const CtFace face = face_of(small_volume());
+  return face;
+}
+
 /// The greatest distance (mm) of a surface's vertices from a shape.
 double farthest_mm(const TriMesh& mesh, const test::Shape& shape, double above_y_mm = -1e3) {
   double out = 0;
@@ -37,19 +47,19 @@ double farthest_mm(const TriMesh& mesh, const test::Shape& shape, double above_y
 }
 
 TEST(Head, ThresholdsAreHalfWay) {
-  const CtFace face = face_of(volume_of(test::small_head()));
+  const CtFace& face = small_face();
   EXPECT_NEAR(face.thresholds.skin_hu, -480, 10);
   EXPECT_NEAR(face.thresholds.bone_hu, 500, 60);
   EXPECT_NEAR(face.thresholds.noise_hu, 30, 6);
   CtOptions given;
   given.skin_hu = -300, given.bone_hu = 400;
-  const CtFace other = face_of(volume_of(test::small_head()), given);
+  const CtFace other = face_of(small_volume(), given);
   EXPECT_EQ(other.thresholds.skin_hu, -300);
   EXPECT_EQ(other.thresholds.bone_hu, 400);
 }
 
 TEST(Head, RefusesValuesThatAreNoHounsfieldUnits) {
-  Volume mri = volume_of(test::small_head());
+  Volume mri = small_volume();
   for (float& v : mri.hu) v = (v + 1024) / 3;
   EXPECT_THAT(test::refusal([&] { face_of(mri); }),
               testing::AllOf(HasSubstr("no Hounsfield units"), HasSubstr("--skin-hu and"),
@@ -81,7 +91,7 @@ TEST(Head, OtherUnitsAreTakenWithBothValues) {
 
 TEST(Head, SurfacesLieOnTheMadeOnes) {
   const test::MadeHead head = test::small_head();
-  const CtFace face = face_of(volume_of(head));
+  const CtFace& face = small_face();
   EXPECT_FALSE(face.body.couch);
   EXPECT_LT(farthest_mm(face.skin, head.skin), 1.0);
   EXPECT_TRUE(boundary_loops(face.skin.triangles).empty());
@@ -93,7 +103,7 @@ TEST(Head, SurfacesLieOnTheMadeOnes) {
 }
 
 TEST(Head, TheJawIsParted) {
-  const CtFace face = face_of(volume_of(test::small_head()));
+  const CtFace& face = small_face();
   ASSERT_TRUE(face.separated);
   const Vec3 low = face.bones.mandible.points.colwise().minCoeff().transpose(),
              high = face.bones.mandible.points.colwise().maxCoeff().transpose();
@@ -107,17 +117,17 @@ TEST(Head, TheJawIsParted) {
 TEST(Head, SeedsPartTheJawToo) {
   CtOptions options;
   options.seeds = Seeds{{0, 0.045, -0.006}, {0, -0.034, 0.032}};
-  const CtFace face = face_of(volume_of(test::small_head()), options);
+  const CtFace face = face_of(small_volume(), options);
   EXPECT_TRUE(face.seeded);
   EXPECT_LT(1e3 * face.bones.mandible.points.col(1).maxCoeff(), 1);
   EXPECT_GT(1e3 * face.bones.skull.points.col(1).minCoeff(), -30);
   options.seeds->mandible_m = {0, -0.07, 0.032};
-  EXPECT_THAT(test::refusal([&] { face_of(volume_of(test::small_head()), options); }),
+  EXPECT_THAT(test::refusal([&] { face_of(small_volume(), options); }),
               HasSubstr("series: --seed-mandible: no bone within 6 mm of 0.0,-70.0,32.0 mm"));
 }
 
 TEST(Head, SeedsThatAreNotOneInEachAreRefused) {
-  const Volume volume = volume_of(test::small_head());
+  const Volume& volume = small_volume();
   CtOptions options;
   const Vec3 skull(0, 0.045, -0.006), jaw(0, -0.034, 0.032);
   options.seeds = Seeds{jaw, jaw};
@@ -220,7 +230,7 @@ TEST(Head, AirInsideIsNoSkin) {
 }
 
 TEST(Head, PointsLieWhereTheShapeHasThem) {
-  const CtFace face = face_of(volume_of(test::small_head()));
+  const CtFace& face = small_face();
   const auto& points = face.points.skin;
   ASSERT_TRUE(points.contains("pronasale") && points.contains("pogonion") &&
               points.contains("subnasale"));
@@ -242,7 +252,7 @@ TEST(Head, AStackThatEndsBelowTheNoseHasNoNoseTip) {
 }
 
 TEST(Head, MetalIsTold) {
-  Volume volume = volume_of(test::small_head());
+  Volume volume = small_volume();
   for (int k = 0; k < volume.size[2]; ++k)
     for (int j = 0; j < volume.size[1]; ++j)
       for (int i = 0; i < volume.size[0]; ++i)

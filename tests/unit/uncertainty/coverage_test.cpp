@@ -32,9 +32,9 @@ using hyperex::test::TwinChange;
 using hyperex::test::TwinFace;
 using hyperex::test::TwinTruth;
 
-/// A patient takes some 17 s on one core.
+/// A patient takes some 30 s on one core.
 int patients() {
-  return hyperex::test::draws(12);
+  return hyperex::test::draws(8);
 }
 
 constexpr double kNoise_m = 3e-4, kGain = 0.5, kCheek = 3;
