@@ -79,7 +79,8 @@ endfunction()
 
 # The tests of one room: an executable test_NAME, each of its cases one CTest.
 #   hx_test(io SOURCES ply_test.cpp LINKS hx_io)
-# LEVEL: O2 for what multiplies matrices itself, O1 by default: a quarter less time of the compiler.
+# LEVEL: O1 by default, which takes the compiler a quarter less time. O2 for tests that multiply
+# matrices themselves.
 # TIMEOUT: seconds a case may take, 600 by default.
 # TOGETHER: the name of a suite whose cases share costly data. It is one CTest, in one process.
 # Cases may read real data under ${PROJECT_SOURCE_DIR}/../shared and must skip where it is absent.

@@ -155,17 +155,21 @@ class Session {
       add_variant: () => ({ face: this.faces.push({ name: fields.name, values: this.faces[fields.like].values }) - 1 }),
       set: () => {
         const face = this.faces[fields.face];
-        if (!fields.live) Object.assign(face, { values: { ...face.values, ...fields.changes }, name: fields.name ?? face.name });
+        const before = fields.face === 0 ? defaults : this.faces[0].values; // null goes back to it
+        const changes = Object.fromEntries(Object.entries(fields.changes).map(([k, v]) => [k, v ?? before[k]]));
+        if (!fields.live) Object.assign(face, { values: { ...face.values, ...changes }, name: fields.name ?? face.name });
         return { superseded: false };
       },
       free_name: () => ({ name: fields.name }),
       compare_visits: () => ({ path: `/mine/${fields.name}.html`, sentences: [`${fields.expression}: 4.6 mm less`] }),
       paint: () => ({ file: `painted-${this.requests.length}.csv` }),
     };
-    this.send({ answer: id, ...answers[name]?.() });
-    if (name === 'region_shares') return;
-    if (name === 'error_budget') return this.budget();
-    if (name === 'hello' || !fields.live) this.scene();
+    const found = answers[name]?.();
+    // As from the program: the scene comes before the answer, but after that to hello.
+    if (!['hello', 'region_shares', 'error_budget'].includes(name) && !fields.live) this.scene();
+    this.send({ answer: id, ...found });
+    if (name === 'error_budget') this.budget();
+    if (name === 'hello') this.scene();
     if (name === 'hello' || (name === 'set' && !fields.live)) this.moved(name === 'hello' ? 'face' : 'motion');
   }
 }

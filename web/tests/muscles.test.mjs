@@ -58,7 +58,7 @@ describe('a report of a face that muscles drive', () => {
 
   for (const colorScheme of ['light', 'dark'])
     test(`curves a side and lines over the face, ${colorScheme}`, async () => {
-      const { page, complaints, close } = await openPage(browser, report, { colorScheme });
+      const { page, complaints, close } = await openPage(browser, report, { colorScheme, pixels: true });
       const { groups, few_points: few } = (await readPage(report)).data.muscles;
       const pull = ({ left, right }) => Math.max(...left, ...right);
       const order = [...groups].sort((a, b) => pull(b) - pull(a));

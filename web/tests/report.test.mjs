@@ -20,7 +20,7 @@ before(async () => (browser = await launch()));
 after(() => browser?.close());
 
 async function open(report, options = {}) {
-  const view = await openPage(browser, report, options);
+  const view = await openPage(browser, report, { pixels: true, ...options });
   await view.page.waitForSelector('#face[data-frame]', { timeout: 60_000 });
   return view;
 }

@@ -12,7 +12,7 @@ after(() => browser?.close());
 
 /** The skin at rest, from the front. */
 async function atRest(name) {
-  const { page, close } = await openPage(browser, fixture(name), { viewport: { width: 960, height: 700 } });
+  const { page, close } = await openPage(browser, fixture(name), { viewport: { width: 960, height: 700 }, pixels: true });
   await page.waitForSelector('#face[data-frame]');
   await page.locator('#frame').fill('0');
   await page.waitForFunction(() => Number(document.getElementById('face').dataset.frame) === 0);

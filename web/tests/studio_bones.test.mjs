@@ -191,7 +191,9 @@ describe('bones with the program', { skip: program() ? false : 'the program is n
     // Its pictures are new.
     await page.waitForFunction((old) => document.querySelector('.ct-pictures img').getAttribute('src') !== old, before);
     await page.click('#open-files');
+    const anew = await page.locator('.ct-pictures img').first().getAttribute('src');
     await divideInto('ct-3');
+    await page.waitForFunction((old) => document.querySelector('.ct-pictures img').getAttribute('src') !== old, anew);
     assert.equal(await status.textContent(), '');
     await page.click('#undo');
     await page.waitForFunction(() => !document.getElementById('scene-text').textContent.includes('ct-3'));

@@ -103,15 +103,35 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
       await page.keyboard.press('PageDown');
       await page.locator('#face').focus(); // let go
     };
+    const asks = async (count) => {
+      for (let i = 0; session().held.length < count && i < 3000; ++i) await page.waitForTimeout(10);
+      assert.ok(session().held.length >= count, 'it asks');
+    };
     session().held = [];
     await pull();
-    while (session().held.length < 1) await page.waitForTimeout(10); // it asks for a face beside base
+    await asks(1); // for a face beside base
     session().scene();
     await pull();
     assert.equal(await at(), '60 %', 'from 80 %');
     session().release();
     await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('"side_R":0.6'));
     assert.equal(await at(), '60 %');
+    // Back as in base: the value of base shows at once, and stays.
+    await page.locator('#tab-tissue').dispatchEvent('click');
+    const young = page.locator('[data-key="tissue.young_kpa"]');
+    const digits = () => young.locator('input[type=number]').inputValue();
+    await young.locator('input[type=number]').fill('300');
+    await young.locator('input[type=number]').press('Enter');
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.includes('"tissue.young_kpa":300'));
+    await page.locator('#face').focus();
+    session().held = [];
+    await young.locator('.back').click();
+    await asks(1);
+    session().scene();
+    await page.waitForFunction(() => document.querySelector('[data-key="tissue.young_kpa"] input[type=number]').value === '150');
+    session().release();
+    await page.waitForFunction(() => document.getElementById('scene-text').textContent.match(/"tissue.young_kpa":150/g)?.length === 2);
+    assert.equal(await digits(), '150');
     // Once it has answered, its word counts: as after a step back.
     session().faces[1].values = { ...session().faces[1].values, 'muscles.gain': { side_R: 0.3 } };
     session().scene();

@@ -79,8 +79,8 @@ export async function askWhatIf(page, typed) {
   await page.keyboard.press('Enter');
 }
 
-/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. `pixels`: the
- *  test looks at pictures. */
+/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. `pixels`: all
+ *  of them, as users see pictures. */
 export async function openStudio(browser, address, { ready = true, pixels = false, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', acceptDownloads: true, ...options,

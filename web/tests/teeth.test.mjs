@@ -22,7 +22,7 @@ async function pictures(change) {
   change(data);
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-teeth-')), 'page.html');
   await writeFile(file, withData(html, data));
-  const { page, complaints, close } = await openPage(browser, file, { viewport: { width: 960, height: 560 } });
+  const { page, complaints, close } = await openPage(browser, file, { viewport: { width: 960, height: 560 }, pixels: true });
   await page.waitForSelector('#face[data-frame]');
   const shown = [];
   for (const frame of [0, data.motion.peak_frame]) {

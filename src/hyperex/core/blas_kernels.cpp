@@ -11,7 +11,7 @@ namespace {
 
 /// OpenBLAS reads it when it chooses its kernels.
 constexpr const char* kChoice = "OPENBLAS_CORETYPE";
-constexpr const char* kFallback = "Prescott";
+constexpr const char* kFallback = "Prescott";  // for SSE3
 
 std::string name_in_use() {
   const auto name = loaded_symbol<char* (*)()>("openblas_get_corename");
@@ -37,6 +37,7 @@ std::string choose_blas_kernels() {
   const auto leave = loaded_symbol<void (*)()>("gotoblas_dynamic_quit");
   const auto choose = loaded_symbol<void (*)()>("gotoblas_dynamic_init");
   if (best && leave && choose && !std::getenv(kChoice) && name_in_use() == kFallback) {
+    // Threads of OpenBLAS that start meanwhile read the variable, too, and choose the same.
     ::setenv(kChoice, best, 1);
     leave();
     choose();

@@ -11,8 +11,7 @@ namespace {
 using Set = void (*)(int);
 using Get = int (*)();
 
-/// Here, as each program that solves needs this file, and before main(), as no thread is in BLAS
-/// yet.
+/// Each program that solves links this file. Before main() none of its threads uses BLAS.
 [[maybe_unused]] const std::string kernels = choose_blas_kernels();
 
 }  // namespace

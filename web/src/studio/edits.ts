@@ -8,29 +8,37 @@ import { isRecord, type Values } from './messages';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
+/** In the place of a face's number. */
+const beingAdded = -1;
+
 export class Edits {
   private target: Promise<number> | null = null;
   private underWay = false;
   private waiting: Values | null = null;
   /** Counts releases of sliders: drags before a release are obsolete. */
   private turn = 0;
-  /** Changes that the server has not answered yet. Events that come meanwhile know nothing of them. */
-  private readonly drafts = new Map<string, unknown>();
-  /** The face that the drafts are of; null: the one that is being added. */
-  private draftFace: number | null = null;
+  /** Changes of each face that the server has not answered yet. Events that come meanwhile know nothing of them. */
+  private readonly drafts = new Map<number, Values>();
+  /** Changes that were sent, or will be once their face is there. */
+  private unanswered = 0;
   private wasPlaying = false;
 
   constructor(
     private readonly state: StudioState, private readonly connection: Connection, private readonly problem: (text: string) => void,
   ) {
+    state.sceneChanged.add(() => {
+      if (this.unanswered === 0) this.drafts.clear();
+    });
     connection.on('motion', () => this.resume());
   }
 
   /** The value that a key of the edited face has, or will have. */
   value(key: string): unknown {
-    const { edited } = this.state;
-    const drafted = this.draftFace === null || this.draftFace === edited;
-    return drafted && this.drafts.has(key) ? this.drafts.get(key) : this.state.valuesOf(edited)[key];
+    const { state } = this;
+    const drafts = this.drafts.get(this.draftFace) ?? {};
+    if (!(key in drafts)) return state.valuesOf(state.edited)[key];
+    // null: as in base, which null resets to its default.
+    return drafts[key] ?? (state.edited === 0 ? state.keys.get(key)?.default : state.valuesOf(0)[key]);
   }
 
   /** Strengths of muscles that the edited face changes, or will change: muscles.gain. */
@@ -71,30 +79,27 @@ export class Edits {
     this.draft(changes);
     this.waiting = null;
     ++this.turn;
+    ++this.unanswered;
     this.problem('');
     try {
       const face = await this.face();
       if (frameFirst) await this.send(face, changes, true).catch(() => {}); // the change itself reports errors
       await this.send(face, changes, false, this.nameFor(face, changes));
-      this.confirm(changes);
     } catch (error) {
       this.drop(error);
     } finally {
       this.target = null;
+      if (--this.unanswered === 0 && this.drafts.size > 0) this.state.sceneChanged.notify(); // the server's values count
     }
   }
 
   private draft(changes: Values): void {
-    const { edited, changeBase } = this.state;
-    const face = edited !== 0 || changeBase ? edited : null;
-    if (face !== this.draftFace) this.drafts.clear();
-    this.draftFace = face;
-    for (const [key, value] of Object.entries(changes)) this.drafts.set(key, value);
+    this.drafts.set(this.draftFace, { ...this.drafts.get(this.draftFace), ...changes });
   }
 
-  /** Later changes of the same keys stay drafts. */
-  private confirm(changes: Values): void {
-    for (const [key, value] of Object.entries(changes)) if (this.drafts.get(key) === value) this.drafts.delete(key);
+  private get draftFace(): number {
+    const { edited, changeBase } = this.state;
+    return edited !== 0 || changeBase ? edited : beingAdded;
   }
 
   private async sendWaiting(): Promise<void> {
@@ -132,7 +137,7 @@ export class Edits {
   private face(): Promise<number> {
     const { state } = this;
     if (state.edited !== 0 || state.changeBase) return Promise.resolve(state.edited);
-    this.target ??= this.addFace(words.newVariant, 0).then((face) => (this.draftFace = face));
+    this.target ??= this.addFace(words.newVariant, 0);
     return this.target;
   }
 
@@ -141,6 +146,11 @@ export class Edits {
     const { state } = this;
     const name = state.freeName(wanted);
     const { face } = await this.connection.request('add_variant', { name, like, ...(preset && { preset }) });
+    const drafts = this.drafts.get(beingAdded);
+    if (this.target && drafts) {
+      this.drafts.delete(beingAdded);
+      this.drafts.set(face, drafts);
+    }
     if (state.source.replay.faces.length <= face) state.addLike(like, name);
     const first = state.shown.mode === 'single' ? 0 : state.shown.first;
     state.shown.set({ mode: state.shown.mode === 'wipe' ? 'wipe' : 'side-by-side', first, second: face });

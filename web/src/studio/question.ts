@@ -122,7 +122,7 @@ export class Question {
   }
 
   private rows(key: string): Record<string, unknown>[] {
-    const value = this.state.valuesOf(this.state.edited)[key];
+    const value = this.edits.value(key);
     return Array.isArray(value) ? value.filter(isRecord) : [];
   }
 

@@ -43,7 +43,7 @@ export class WhatIf {
     const { gains } = this.edits;
     const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : strength.usual;
     const take: Take = (gain, percent) => {
-      const { [instead ?? '']: _before, ...kept } = gains;
+      const { [instead ?? '']: _before, ...kept } = this.edits.gains;
       void this.edits.commit({ [gainKey]: { ...kept, [gain]: percent / 100 } });
     };
     fillChooser(sheet, this.strengths(take, usual).flat(), close);
