@@ -33,7 +33,7 @@ export async function openPage(browser, file, { init, pixels = false, ...options
   if (!pixels) await fewPixels(context);
   if (init) await context.addInitScript(init);
   const page = await context.newPage();
-  page.setDefaultTimeout(30_000);
+  page.setDefaultTimeout(60_000);
   const complaints = [];
   const address = pathToFileURL(file).href;
   page.on('console', (message) => {

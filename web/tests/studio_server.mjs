@@ -87,7 +87,7 @@ export async function openStudio(browser, address, { ready = true, pixels = fals
   });
   if (!pixels) await fewPixels(context);
   const page = await context.newPage();
-  page.setDefaultTimeout(60_000);
+  page.setDefaultTimeout(120_000); // a video is drawn frame by frame, and this machine may have other work
   const complaints = [];
   page.on('console', (message) => {
     if (/GPU stall due to ReadPixels|readback operations using getImageData/.test(message.text())) return;
