@@ -27,7 +27,7 @@ describe('remarks in the studio', { skip, concurrency: false }, () => {
     assert.equal(await beside.count(), 0);
     await slider.focus();
     await page.keyboard.press('Home'); // one key, and therefore one step of the history
-    await page.waitForFunction((name) => document.getElementById('scene-text').textContent.includes(`"${name}" = 0 `), muscle);
+    await page.waitForFunction((name) => new RegExp(`"${name}" = 0(?![.\\d])`).test(document.getElementById('scene-text').textContent), muscle);
     await settled();
     await beside.waitFor();
     // In one step: remarks are placed anew when uncertainties arrive.
