@@ -79,13 +79,12 @@ export async function askWhatIf(page, typed) {
   await page.keyboard.press('Enter');
 }
 
-/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. `pixels`: all
- *  of them, as users see pictures. */
-export async function openStudio(browser, address, { ready = true, pixels = false, ...options } = {}) {
+/** A page of the studio that remembers everything that should not happen; ready once the face is drawn. */
+export async function openStudio(browser, address, { ready = true, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1280, height: 720 }, reducedMotion: 'reduce', acceptDownloads: true, ...options,
   });
-  if (!pixels) await fewPixels(context);
+  await fewPixels(context);
   const page = await context.newPage();
   page.setDefaultTimeout(120_000); // a video is drawn frame by frame, and this machine may have other work
   const complaints = [];

@@ -32,17 +32,21 @@ const char* best_kernels() {
 
 }  // namespace
 
-std::string choose_blas_kernels() {
-  const char* const best = best_kernels();
+bool take_blas_kernels(const std::string& name) {
   const auto leave = loaded_symbol<void (*)()>("gotoblas_dynamic_quit");
   const auto choose = loaded_symbol<void (*)()>("gotoblas_dynamic_init");
-  if (best && leave && choose && !std::getenv(kChoice) && name_in_use() == kFallback) {
-    // Threads of OpenBLAS that start meanwhile read the variable, too, and choose the same.
-    ::setenv(kChoice, best, 1);
-    leave();
-    choose();
-    ::unsetenv(kChoice);
-  }
+  if (!leave || !choose) return false;
+  // Threads of OpenBLAS that start meanwhile read the variable, too, and choose the same.
+  ::setenv(kChoice, name.c_str(), 1);
+  leave();
+  choose();
+  ::unsetenv(kChoice);
+  return true;
+}
+
+std::string choose_blas_kernels() {
+  const char* const best = best_kernels();
+  if (best && !std::getenv(kChoice) && name_in_use() == kFallback) take_blas_kernels(best);
   return name_in_use();
 }
 

@@ -13,4 +13,9 @@ namespace hyperex {
 /// No other thread may be in BLAS meanwhile. Programs that link the solver run it before main().
 std::string choose_blas_kernels();
 
+/// Has OpenBLAS take the kernels of this name, whatever it has chosen. False, and nothing changes,
+/// where it is not the BLAS of this process or can't choose. One that has no such kernels takes
+/// others. As above, no other thread may be in BLAS meanwhile.
+bool take_blas_kernels(const std::string& name);
+
 }  // namespace hyperex

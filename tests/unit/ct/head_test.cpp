@@ -70,7 +70,7 @@ TEST(Head, RefusesValuesThatAreNoHounsfieldUnits) {
 
 TEST(Head, OtherUnitsAreTakenWithBothValues) {
   const test::MadeHead head = test::small_head();
-  Volume other = volume_of(head);
+  Volume other = small_volume();
   for (float& v : other.hu) v = 3000 + 2 * v;
   CtOptions options;
   options.skin_hu = 2040;

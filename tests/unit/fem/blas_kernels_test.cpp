@@ -9,29 +9,18 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/core/loaded_symbol.hpp"
-
 extern "C" char* openblas_get_corename(void);
 
 namespace hyperex {
 namespace {
 
-/// As OpenBLAS chooses for a processor that it does not know.
-bool fall_back() {
-  const auto leave = loaded_symbol<void (*)()>("gotoblas_dynamic_quit");
-  const auto choose = loaded_symbol<void (*)()>("gotoblas_dynamic_init");
-  if (!leave || !choose) return false;
-  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
-  leave();
-  choose();
-  return std::string(openblas_get_corename()) == "Prescott";  // else it has no such kernels
-}
-
 class BlasKernels : public testing::Test {
  protected:
   void SetUp() override {
     if (std::getenv("OPENBLAS_CORETYPE")) GTEST_SKIP() << "the user has chosen";
-    if (!fall_back()) GTEST_SKIP() << "this OpenBLAS has no other kernels";
+    // As OpenBLAS chooses for a processor that it does not know.
+    if (!take_blas_kernels("Prescott") || std::string(openblas_get_corename()) != "Prescott")
+      GTEST_SKIP() << "this OpenBLAS has no other kernels";
   }
   void TearDown() override {
     ::unsetenv("OPENBLAS_CORETYPE");
@@ -40,7 +29,6 @@ class BlasKernels : public testing::Test {
 };
 
 TEST_F(BlasKernels, OfAnUnknownProcessorAreThoseThatItCanRun) {
-  ::unsetenv("OPENBLAS_CORETYPE");
 #if defined(__x86_64__)
   if (!__builtin_cpu_supports("avx2")) GTEST_SKIP() << "the fallback is all that it can run";
   const std::string expected = __builtin_cpu_supports("avx512dq") ? "SkylakeX" : "Haswell";
@@ -56,6 +44,7 @@ TEST_F(BlasKernels, OfAnUnknownProcessorAreThoseThatItCanRun) {
 }
 
 TEST_F(BlasKernels, ThatTheUserHasChosenStay) {
+  ::setenv("OPENBLAS_CORETYPE", "Prescott", 1);
   EXPECT_EQ(choose_blas_kernels(), "Prescott");
   EXPECT_STREQ(openblas_get_corename(), "Prescott");
 }

@@ -4,8 +4,8 @@
 // another face beside it, which the first change adds.
 import { briefName, isBriefName } from './brief_name';
 import { Refused, type Connection } from './connection';
-import { isRecord, type Values } from './messages';
-import type { StudioState } from './studio_state';
+import type { Values } from './messages';
+import { gainKey, gainsIn, type StudioState } from './studio_state';
 import { words } from './words';
 
 /** In the place of a face's number. */
@@ -43,8 +43,7 @@ export class Edits {
 
   /** Strengths of muscles that the edited face changes, or will change: muscles.gain. */
   get gains(): Record<string, number> {
-    const value = this.value('muscles.gain');
-    return isRecord(value) ? (value as Record<string, number>) : {};
+    return gainsIn(this.value(gainKey));
   }
 
   /** Called while a slider is dragged. */

@@ -10,14 +10,13 @@ import type { MuscleInfo } from './messages';
 import type { Control, RemarkPanel } from './remark_places';
 import { differingGains, type Remark } from './remarks';
 import { linear, Slider } from './slider';
-import type { StudioState } from './studio_state';
+import { gainKey, type StudioState } from './studio_state';
 import { words } from './words';
 
 type Gains = Record<string, number>;
 type Side = 'R' | 'L';
 /** As in the view of the face: its right side is on the left. */
 const sides: Side[] = ['R', 'L'];
-const gainKey = 'muscles.gain';
 const motionGain = 'motion.gain';
 
 const percent = linear(0, 200);

@@ -8,11 +8,10 @@ import { namedChanges, type NamedChange } from './brief_name';
 import type { Edits } from './edits';
 import { isRecord } from './messages';
 import { linear, Slider } from './slider';
-import type { StudioState } from './studio_state';
+import { gainKey, type StudioState } from './studio_state';
 import type { WhatIf } from './what_if';
 import { words } from './words';
 
-const gainKey = 'muscles.gain';
 const regionKey = 'tissue.region';
 const boneKey = 'surgery.bone';
 const percent = linear(0, 200);

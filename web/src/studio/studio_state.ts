@@ -22,6 +22,11 @@ export function nested(values: Values): Record<string, unknown> {
   return out;
 }
 
+/** The key of a scene: strengths of muscles by name. */
+export const gainKey = 'muscles.gain';
+
+export const gainsIn = (value: unknown): Record<string, number> => (isRecord(value) ? (value as Record<string, number>) : {});
+
 export class StudioState {
   readonly source = new ChangingSource();
   readonly shown = new Shown(1);
@@ -46,8 +51,7 @@ export class StudioState {
 
   /** Strengths of muscles that a face changes: muscles.gain. */
   gainsOf(face: number): Record<string, number> {
-    const gains = this.valuesOf(face)['muscles.gain'];
-    return isRecord(gains) ? (gains as Record<string, number>) : {};
+    return gainsIn(this.valuesOf(face)[gainKey]);
   }
 
   /** The place of the variant with this name; 0, base, for the empty name. */

@@ -11,11 +11,10 @@ import { fillChooser, type Amount, type Choice } from './chooser';
 import type { Edits } from './edits';
 import { isRecord, type Preset, type Values } from './messages';
 import { nameOfRegion, sidesAndBoth } from './region_chooser';
-import type { StudioState } from './studio_state';
+import { gainKey, type StudioState } from './studio_state';
 import { tryChange } from './try_change';
 import { words } from './words';
 
-const gainKey = 'muscles.gain';
 const regionKey = 'tissue.region';
 /** A weakened muscle, of its activation in base. */
 const strength: Amount = { unit: '%', usual: 50, least: 0, most: 200 };
@@ -56,8 +55,7 @@ export class WhatIf {
 
   private async addWeaker(gain: string, percent: number): Promise<void> {
     const values = this.state.valuesOf(0);
-    const base = values[gainKey];
-    const changes = { [gainKey]: { ...(isRecord(base) ? base : {}), [gain]: Number((percent / 100).toFixed(3)) } };
+    const changes = { [gainKey]: { ...this.state.gainsOf(0), [gain]: Number((percent / 100).toFixed(3)) } };
     const face = await this.edits.addFace(briefName(changes, values, this.state.muscles) || words.newVariant, 0);
     this.focus(face);
     await this.edits.change(face, changes);

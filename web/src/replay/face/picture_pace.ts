@@ -18,7 +18,8 @@ export class PicturePace {
   readonly software = drawsInSoftware();
   /** More live shapes follow as fast as they are drawn, computed on the same processor. */
   streaming = false;
-  /** For tests of what does not show in pictures: fewer pixels in each direction. */
+  /** Factor on the number of pixels in each direction, where the processor draws. 1, unless a browser test has stored a
+   *  smaller one to save time. */
   private readonly share = Number(remembered('picture-pixels') ?? 1);
   private drawnAt = 0;
   private late = 0;
