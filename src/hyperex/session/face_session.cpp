@@ -125,6 +125,7 @@ void FaceSession::Impl::take(scene::Scene next) {
   std::vector<VariantRun> next_runs;
   simulate::SimulationOptions options;
   std::vector<simulate::SimulationOptions> options_of_runs;
+  bool same_base = false;
   try {
     next_field = fields->of(next);
     next_runs = prepare_variants(next, inputs, *fields);
@@ -134,6 +135,11 @@ void FaceSession::Impl::take(scene::Scene next) {
       options_of_runs.push_back(options_of(run.scene, run.inputs, run.field));
       check(options_of_runs.back());
     }
+    same_base = simulator && simulator->options() == options;
+    if (!simulator)
+      simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, options);
+    else if (!same_base)
+      simulator->set_options(options);
   } catch (...) {
     inputs.driven = std::move(driven_before);
     throw;
@@ -141,13 +147,7 @@ void FaceSession::Impl::take(scene::Scene next) {
   drive = std::move(choice);
   scene = std::move(next);
   field = std::move(next_field);
-  const bool same_base = simulator && simulator->options() == options;
-  if (!simulator) {
-    simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, options);
-  } else if (!same_base) {
-    simulator->set_options(options);
-    next_variant.reset();
-  }
+  if (!same_base) next_variant.reset();
   stale = stale || !same_base;
   std::vector<VariantRun> before = std::exchange(runs, std::move(next_runs));
   keep_variants(std::move(before), options_of_runs, same_base);
@@ -217,8 +217,10 @@ bool FaceSession::set_scene(scene::Scene next) {
   if (!same_face(impl_->scene, next)) return false;
   next.kept = impl_->scene.kept;
   next.given = impl_->scene.given;
-  impl_->source.replace(next);
+  SceneSource source = impl_->source;
+  source.replace(next);
   impl_->take(std::move(next));
+  impl_->source = std::move(source);
   impl_->set_obstacles();
   return true;
 }

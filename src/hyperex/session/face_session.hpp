@@ -61,7 +61,8 @@ struct StageSeconds {
 /// A stage is computed when it is first needed and kept until something that it depends on changes:
 ///
 ///   stage                  depends on
-///   inputs                 [scan], [motion] but its gain, [alignment], [teeth]
+///   inputs                 [scan], [motion] but its gain, [anatomy], [alignment], [teeth],
+///                          time.start_s
 ///   mesh, rest asymmetry   inputs, [mesh]
 ///   teeth                  inputs, mesh
 ///   tissue fields          mesh, [tissue], each face's own

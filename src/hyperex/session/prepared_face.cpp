@@ -7,7 +7,7 @@
 #include <concepts>
 #include <utility>
 
-#include "hyperex/core/files.hpp"
+#include "hyperex/core/pack_options.hpp"
 #include "hyperex/core/packed.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/session/kept.hpp"
@@ -105,18 +105,13 @@ namespace {
 
 std::string mesh_key(const scene::Scene& scene, const Inputs& inputs,
                      const std::vector<char>& held) {
-  const tissue::TissueMeshOptions& o = scene.mesh;
   Packer of;
   of(inputs.scan.mesh.points, inputs.scan.mesh.triangles, inputs.scan.file.string(), held);
   for (const auto& [name, at] : inputs.landmarks) of(name, at);
-  of(o.element_size_m, o.layers, o.thickness_m, o.cut_lips, o.trim_border_m);
+  pack_options(scene.mesh, of);
   if (inputs.bones)
     for (const TriMesh* bone : {&inputs.bones->skull(), &inputs.bones->mandible()})
       of(bone->points, bone->triangles);
-  for (const tissue::DepthAt& depth : o.depths) of(depth.landmark, depth.depth_m);
-  if (!o.depth_per_vertex.empty()) of(read_file(o.depth_per_vertex));
-  for (const tissue::DepthRegion& region : o.depth_regions)
-    of(read_file(region.painted), region.depth_m);
   return kept_key("face", of.bytes());
 }
 

@@ -4,17 +4,13 @@
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::session {
-namespace {
 
-/// Keys that a simulator cannot take: they change the inputs or the mesh.
 bool makes_the_face(const std::string& key) {
   const std::string section = scene::section_of(key);
   return section == "scan" || section == "mesh" || section == "anatomy" || section == "alignment" ||
          section == "teeth" || (section == "motion" && key != "motion.gain") ||
          key == "time.start_s";
 }
-
-}  // namespace
 
 bool same_face(const scene::Scene& a, const scene::Scene& b, const std::string& except) {
   for (const scene::Key& key : scene::keys())

@@ -75,10 +75,7 @@ const scene::Scene* variant_of(const scene::Scene& scene, const std::string& nam
 }  // namespace
 
 bool is_variant_key(const std::string& key) {
-  const auto& sections = scene::variant_sections();
-  if (key == "muscles.file" || key == "muscles.without") return false;
-  return key == "motion.gain" || std::find(sections.begin(), sections.end(),
-                                           scene::section_of(part_name(key).key)) != sections.end();
+  return scene::may_vary(part_name(key).key);
 }
 
 SceneSource::SceneSource(scene::Scene scene) : scene_(std::move(scene)), given_(scene_.given) {}

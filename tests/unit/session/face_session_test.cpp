@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <fstream>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
@@ -13,8 +14,10 @@
 #include "hyperex/metrics/skin_uncertainty.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/scene/given_text.hpp"
+#include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/same_face.hpp"
 #include "hyperex/session/scene_source.hpp"
 #include "hyperex/session/variants.hpp"
 
@@ -166,6 +169,44 @@ TEST(FaceSession, OtherScenesOfTheFaceGiveWhatAFreshSessionGives) {
   EXPECT_TRUE(face.base_up_to_date());
   EXPECT_FALSE(face.up_to_date());
   EXPECT_FALSE(face.set_scene(scene_of(stiffer + "\n[alignment]\nmethod = \"similarity\"\n")));
+}
+
+TEST(FaceSession, ASceneThatIsRefusedChangesNothing) {
+  FaceSession face = session_of(kCoarse + kMuscles);
+  const FaceResult before = face.run();
+  const std::string twice =
+      kCoarse + kMuscles + "[[variant]]\nname = \"none\"\nsupport.skull_layer_kpa_per_mm = 0\n";
+  scene::Scene wrong = scene_of(twice);
+  wrong.variants[0].scene.drive.points = {"nobody"};
+  EXPECT_THROW(face.set_scene(wrong), InputError);
+  face.set("tissue.mirror", true);
+  EXPECT_EQ(face.scene().variants.size(), 1u) << "the change, and no variant of the refused scene";
+  expect_equal(face.run(), before);
+}
+
+TEST(FaceSession, ShapesMayBeSwitchedOffByKey) {
+  FaceSession face = session_of(kCoarse + kMuscles);
+  ASSERT_TRUE(face.scene().muscles.shape_prior);
+  face.set("muscles.shape_prior", false);
+  EXPECT_FALSE(face.scene().muscles.shape_prior);
+  EXPECT_TRUE(face.scene().variants.empty());
+}
+
+/// Keys of the rows "inputs" and "mesh" in the header's table are those that make the face.
+TEST(FaceSession, TheHeadersTableNamesTheKeysThatMakeTheFace) {
+  std::ifstream file(std::string(HYPEREX_SOURCE_DIR) + "/src/hyperex/session/face_session.hpp");
+  std::string rows;
+  bool within = false;
+  for (std::string line; std::getline(file, line);) {
+    within = (within || line.starts_with("///   inputs ")) && !line.starts_with("///   teeth ");
+    if (within) rows += line;
+  }
+  ASSERT_NE(rows.find("[motion] but its gain"), std::string::npos) << rows;
+  for (const scene::Key& key : scene::keys()) {
+    const bool named = rows.find(key.name) != std::string::npos ||
+                       rows.find("[" + scene::section_of(key.name) + "]") != std::string::npos;
+    EXPECT_EQ(makes_the_face(key.name), named && key.name != "motion.gain") << key.name;
+  }
 }
 
 TEST(FaceSession, ContactSwitchedOnLaterIsThatOfAFreshSession) {
