@@ -35,9 +35,9 @@ const std::vector<int>& still_ibug_points();
 /// The blend shapes are those of real faces (expression/shape_model.hpp), with the most probable
 /// weights of 0 or more for the displacements of the seven points or of all 68. The residual at
 /// these points and the still ones is interpolated as by the plain warp, so that all are met. The
-/// shapes' error at a point is taken as 1.5 mm with seven points and 3 mm with all: values from 0.5
-/// to 3 mm were tried, and these gave the smallest errors on a real smile. Weights fitted to the
-/// still points too gave larger errors.
+/// shapes' error at a point is taken as 1.5 mm with seven points and 3 mm with all. Of the values
+/// tried, 0.5 to 3 mm, these gave the smallest errors on a real smile. Weights fitted to the still
+/// points too gave larger errors.
 /// `truth` has |rest| rows or more. Throws InputError naming the landmarks that are missing.
 std::vector<Baseline> baselines(const TriMesh& rest, const Points& truth,
                                 const io::Landmarks& landmarks);
