@@ -82,7 +82,7 @@ def write_scene(data, out, subject, points):
 
 
 def activations(program, scene):
-    """Of each shape: muscle -> activation."""
+    """A dictionary from muscle to activation for each shape."""
     out = scene[: -len(".toml")]
     subprocess.run([program, "run", scene, "--out", out], check=True, stdout=subprocess.DEVNULL)
     with open(f"{out}/activations.csv") as stream:

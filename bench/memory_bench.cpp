@@ -22,8 +22,8 @@ namespace {
 constexpr int kEarly = 100, kLate = 1000;
 constexpr double kMostGrowth = 1.02;
 
-/// Of this process, in bytes. Free memory is returned to the system first; otherwise memory kept by
-/// the allocator would be counted.
+/// Resident memory of this process. Free memory is returned to the system first; otherwise memory
+/// kept by the allocator would be counted.
 double resident_bytes() {
   ::malloc_trim(0);
   std::ifstream file("/proc/self/statm");

@@ -3,13 +3,13 @@
 // constants given on the command line. docs/muscles.md explains how to choose them.
 //   muscle_bench CASES.txt [key=value ...]
 // today=1: driven by displacement; show=1: prints activations; finite=1: finite strain; contact=1:
-// the lips do not pass through each other; teeth=1, eyes=1: the tissue touches the teeth (an
-// average arch if none are scanned), the lids touch the eyeballs. muscles=FILE: with these muscles
-// of the template; write=FOLDER: writes the skin at the peak (NAME_7.ply); coverage=1: prints how
-// often the truth lies in the 95 % ellipsoid of the shapes' posterior. CASES has lines "name scene
-// truth 7|all", or "name scene - markers" for the recording of markers. Prints errors over parts of
-// the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes truths for
-// other expressions of a rig.
+// contact of the lips; teeth=1, eyes=1: contact of the tissue with the teeth (an average arch if
+// none are scanned) and of the lids with the eyeballs. muscles=FILE: with these muscles of the
+// template; write=FOLDER: writes the skin at the peak (NAME_7.ply); coverage=1: prints how often
+// the truth lies in the 95 % ellipsoid of the shapes' posterior. CASES has lines "name scene truth
+// 7|all", or "name scene - markers" for the recording of markers. Prints errors over parts of the
+// face at the peak, as shares of the error of the warp. bench/rig_cases.py makes truths for other
+// expressions of a rig.
 #include <fmt/format.h>
 
 #include <algorithm>

@@ -45,7 +45,7 @@ def write_recording(file, rest, moved, noise_mm, random):
 
 
 def measured(hyperex, folder, rest, moved, noise_mm, random):
-    """Of each pair of points: errors of both excursions and of their difference (mm), 1 sigma of the difference."""
+    """For each pair of points: errors of both excursions and of their difference (mm), 1 sigma of the difference."""
     recording, table = f"{folder}/recording.csv", f"{folder}/excursions.csv"
     write_recording(recording, rest, moved, noise_mm, random)
     subprocess.run(

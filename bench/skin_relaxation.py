@@ -31,7 +31,7 @@ def law_stress(stretch):
 
 
 def branch(stress, dt_s, time_s):
-    """Of ratio 1."""
+    """Stress of a Maxwell branch of ratio 1."""
     fade = np.exp(-dt_s / time_s)
     q = np.zeros_like(stress)
     for k in range(1, len(q)):

@@ -29,12 +29,12 @@ class Callbacks {
   }
 
  private:
-  /// Python is asked every 20 ms at most: a step takes less than a millisecond.
+  /// Python is called every 20 ms at most, since a step takes less than a millisecond.
   bool must_end() {
     if (thrown_) return true;
     const auto now = std::chrono::steady_clock::now();
-    if (now < ask_again_) return false;
-    ask_again_ = now + std::chrono::milliseconds(20);
+    if (now < next_call_) return false;
+    next_call_ = now + std::chrono::milliseconds(20);
     bool end = false;
     const py::gil_scoped_acquire locked;
     guarded([&] {
@@ -55,7 +55,7 @@ class Callbacks {
 
   py::object progress_, cancelled_;
   std::exception_ptr thrown_;
-  std::chrono::steady_clock::time_point ask_again_{};
+  std::chrono::steady_clock::time_point next_call_{};
 };
 
 }  // namespace hyperex::python

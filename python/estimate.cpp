@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What recordings tell of tissue and muscles.
+// Estimates of tissue and muscles from recordings.
 #include "hyperex/estimate/estimate.hpp"
 
 #include <fmt/format.h>

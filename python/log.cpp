@@ -1,5 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Passes the library's notes and warnings to Python's
-// logger "hyperex".
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Passes the library's notes and warnings to Python's logger "hyperex".
 #include <spdlog/details/null_mutex.h>
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Measures of a motion: excursions, symmetry.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Measures of a motion: excursions, symmetry.
 #include <cmath>
 #include <optional>
 

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Obstacles for contact: teeth and eyeballs.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Obstacles for contact: teeth and eyeballs.
 #include "obstacles.hpp"
 
 #include <fmt/format.h>

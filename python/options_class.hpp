@@ -222,7 +222,7 @@ class OptionsClass {
       try {
         set(self, v);
       } catch (const py::cast_error&) {
-        throw py::type_error(fmt::format("{}: a value of type {} does not serve", name,
+        throw py::type_error(fmt::format("{}: a value of type {} cannot be used", name,
                                          std::string(py::str(py::type::of(v).attr("__name__")))));
       }
     };

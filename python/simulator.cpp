@@ -58,8 +58,8 @@ TissueValues completed(TissueValues values, std::size_t tets) {
   return values;
 }
 
-/// As a UserWarning at the line that called run(), once a line unless Python's filters say other:
-/// what makes a result other than the caller expects.
+/// Issues a UserWarning, at the line that called run(), for what makes a result differ from what
+/// the caller expects. Python's filters decide how often; by default once a line.
 void warn_of_changes(const simulate::SimulationReport& report) {
   for (const Note& note : report.notes)
     if ((note.id == "forces.found_anew" || note.id == "muscles.gain_hardly_used") &&

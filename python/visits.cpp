@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later What changed between visits.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What changed between visits.
 #include <fmt/format.h>
 
 #include "bind.hpp"

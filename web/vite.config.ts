@@ -5,9 +5,9 @@ import { readFileSync } from 'node:fs';
 import { defineConfig, type Plugin } from 'vite';
 import { viteSingleFile } from 'vite-plugin-singlefile';
 
-// The finished page may ask nothing of anyone: scripts and styles stand in it, pictures it makes itself. In the
-// finished page alone: while it is developed Vite serves its parts.
-// The studio's alone talks, to the server that it came from.
+// The finished page loads nothing: it contains its scripts and styles and draws its pictures. The policy is set in the
+// finished page alone, since Vite serves the parts during development. Only the studio's page may connect, to the
+// server that it came from.
 const page = process.env.HYPEREX_PAGE ?? 'report.html';
 const talks = page === 'studio.html' ? "; connect-src 'self'" : '';
 const policy = `default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: blob:${talks}`;
@@ -18,7 +18,7 @@ const withPolicy: Plugin = {
     `${first}\n    <meta http-equiv="Content-Security-Policy" content="${policy}" />`),
 };
 
-// The MIT licence of what a page carries inside (three.js, uPlot) asks for its text in every copy.
+// The MIT licence of the packages in a page (three.js, uPlot) requires its text in every copy.
 const packageOf = (module: string) => /.*\/node_modules\/((?:@[^/]+\/)?[^/]+)\//.exec(module)?.[1];
 const notices = (packages: string[]) => packages.map((name) => {
   const folder = new URL(`node_modules/${name}/`, import.meta.url);

@@ -45,7 +45,8 @@ Eigen::VectorXd distances(const CompareOptions& options, const ComparedSurfaces&
 struct Row {
   std::string region;
   metrics::DistanceStatistics statistics;
-  /// Of the mean: where the region lies depends on landmarks. Nothing for the whole surface.
+  /// Errors of the mean, since the region's place depends on landmarks. Empty for the whole
+  /// surface.
   std::optional<metrics::ErrorBudget> errors = {};
 };
 

@@ -121,7 +121,7 @@ void add_ct(CLI::App& program) {
       ->check(CLI::Range(-1e6, 1e6));
   command->add_option("--seed-skull", options->seed_skull,
                       "A point in the skull (x,y,z in mm, frame of the outputs), if jaw and skull "
-                      "are not told apart");
+                      "are not separated");
   command->add_option("--seed-mandible", options->seed_mandible, "A point in the mandible");
   add_own_bones(*command, *options);
   command->footer("Example: hyperex ct head_ct.zip --out ct");

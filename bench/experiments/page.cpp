@@ -157,7 +157,7 @@ std::string models_section(const std::vector<ModelsFace>& faces, const std::stri
                         : fmt::format("none, exact input ({:.1f} for 0.3 mm)", f.noise_floor),
         1e3 * f.jitter_to_tell_mm);
   page +=
-      "\n**Of the mesh or of the tissue?** The same on other meshes. The embedded face and its "
+      "\n**From the mesh or from the tissue?** The same on other meshes. The embedded face and its "
       "motion "
       "are symmetric, so all of\nits D_1 is the mesh's, whose elements are not the same on either "
       "side. On a real face most of it is the face's own\nshape (docs/symmetry.md). " +

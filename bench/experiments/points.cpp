@@ -351,11 +351,9 @@ std::string in_short(const Experiments& all) {
     eta = std::max(eta, std::abs(row_of(f, "eta alone differs").tissue_2 / f.rows[0].tissue_2));
   }
   text += fmt::format(
-      "Of what three tissues differ by, at least {:.0f} % lies within 25 mm of the point where "
-      "they "
-      "differ. The difference of viscosities alone makes {:.1f} % of what S(t) sees of it; the "
-      "rest "
-      "is stiffness.\n\n",
+      "Of the differences between the motions of the three tissues, at least {:.0f} % lie within "
+      "25 mm of the point where the tissues differ. The difference in viscosity alone makes "
+      "{:.1f} % of the change in xi_L - xi_R that S(t) measures; the rest is stiffness.\n\n",
       100 * share, 100 * eta);
   return text;
 }

@@ -16,7 +16,7 @@ FONTS = pathlib.Path("/usr/share/fonts/truetype/dejavu")
 
 
 def right_corners(run):
-    """Of base and of each variant: its name and how far the right corner of the mouth moves, mm."""
+    """For base and each variant: its name and how far the right corner of the mouth moves, mm."""
     with open(run / "variants_excursions.csv", newline="", encoding="utf-8") as file:
         rows = [row for row in csv.DictReader(file) if (row["point"], row["side"]) == ("cheilion", "R")]
     return [("the recorded smile", float(rows[0]["base_mm"]))] + [

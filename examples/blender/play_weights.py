@@ -75,7 +75,7 @@ def save(out):
     if kind == ".blend":
         bpy.ops.wm.save_as_mainfile(filepath=out)
     elif kind == ".fbx":
-        # As one animation of the scene; by its actions the exporter leaves shape keys out.
+        # One animation of the whole scene: when it exports each action, the exporter omits shape keys.
         bpy.ops.export_scene.fbx(
             filepath=out, path_mode="COPY", embed_textures=True, bake_anim_use_all_actions=False,
             bake_anim_use_nla_strips=False)

@@ -10,8 +10,8 @@ int main() try {
   const auto mesh = std::make_shared<const tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.mesh, face.landmarks, {}, "embedded face"));
 
-  // Of a recording: read_motion() and fill_gaps() come first. The head's own motion is taken out,
-  // what is left is carried to this face.
+  // For a recording of your own: read_motion() and fill_gaps() come first. The head's own motion is
+  // removed; the rest is carried to this face.
   const motion::Motion recorded = motion::embedded_mouth_opening(face.landmarks);
   const simulate::AlignedMotion motion =
       simulate::align(motion::stabilise(recorded).motion, face.landmarks);

@@ -12,8 +12,8 @@ import hyperex
 face = hyperex.embedded_face()  # of your own: hyperex.read_face("me.ply", "me_landmarks.json")
 mesh = hyperex.build_tissue_mesh(face)
 
-# Of a recording: hyperex.read_motion("me.csv"). The head's own motion is taken out, what is left
-# is carried to this face.
+# For a recording of your own: hyperex.read_motion("me.csv"). The head's own motion is removed; the
+# rest is carried to this face.
 recorded = hyperex.embedded_mouth_opening(face.landmarks)
 motion = hyperex.prepare_motion(recorded, face.landmarks)
 

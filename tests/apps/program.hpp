@@ -65,7 +65,7 @@ class ProgramTest : public testing::Test {
   /// A path in the working folder of the program.
   std::filesystem::path in(const std::string& name) const { return folder_ / "in" / name; }
 
-  /// Of a run with `--out out`.
+  /// The summary of a run with `--out out`.
   nlohmann::json summary() const {
     return nlohmann::json::parse(read_file(in("out/summary.json")));
   }

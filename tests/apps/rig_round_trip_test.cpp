@@ -73,9 +73,9 @@ TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   const auto refused = [&](const std::string& arguments, int status, const std::string& part) {
     const Outcome found = call(arguments);
     EXPECT_EQ(found.status, status) << found.err;
-    const auto told = problems_in(found.err);
-    ASSERT_EQ(told.size(), 1u) << found.err;
-    EXPECT_THAT(told[0], HasSubstr(part));
+    const auto problems = problems_in(found.err);
+    ASSERT_EQ(problems.size(), 1u) << found.err;
+    EXPECT_THAT(problems[0], HasSubstr(part));
   };
   refused("check scene.toml", 2, "rig.glb");
   refused("symmetry weights.csv --rig none.glb", 2, "none.glb");

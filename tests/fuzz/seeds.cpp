@@ -13,7 +13,7 @@
 namespace hyperex::fuzz {
 namespace {
 
-/// The bytes of a number, turned round where asked for.
+/// The bytes of a number, in reverse order where `turned` is set.
 template <class T>
 std::string bytes_of(T value, bool turned = false) {
   std::string bytes(sizeof value, '\0');
@@ -64,7 +64,7 @@ std::string triangle_bytes() {
   return bytes;
 }
 
-/// Of a multiple of three bytes.
+/// Base64 of bytes whose number is a multiple of three.
 std::string base64(const std::string& bytes) {
   constexpr std::string_view letters =
       "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";

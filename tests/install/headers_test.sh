@@ -14,7 +14,7 @@ while IFS=: read -r file line; do
   case $name in
     hyperex/*) [[ -e $name ]] || { echo "$file includes $name, which is not installed"; status=1; } ;;
     Eigen/*) ;;
-    # Those of the standard library have neither folder nor ending.
+    # Headers of the standard library have neither a folder nor an extension.
     */* | *.*) echo "$file includes $name: installed headers need Eigen alone"; status=1 ;;
   esac
 done < <(grep -E '^ *# *include' "${headers[@]}")

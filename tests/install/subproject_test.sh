@@ -14,7 +14,7 @@ if [[ $components == fem ]]; then
 fi
 cmake -G Ninja -S "$(dirname "$0")/parent" -B "$work/build" -DHYPEREX="$source" \
   -DHYPEREX_COMPONENTS="$components" "${hidden[@]}" > "$work/log" 2>&1 || { cat "$work/log"; exit 1; }
-# The solver alone asks for neither Node nor what reads pictures.
+# The solver alone needs neither Node nor the libraries that read pictures.
 if [[ $components == fem ]] && grep -E '^(NODE|FLATC|OpenCV_|CAIRO|TURBOJPEG)' "$work/build/CMakeCache.txt"; then
   echo "looked for, though only the solver is wanted"
   exit 1

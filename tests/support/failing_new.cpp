@@ -2,7 +2,7 @@
 // Preloaded into the program (LD_PRELOAD), this lets one allocation by `new` fail:
 //   FAILING_NEW=N      the N-th and, where FAILING_NEW_FOR=M is given, the M - 1 after it
 //   FAILING_NEW_COUNT  a file that takes the number of allocations at the end
-// A limit of memory fails where much is asked for; this fails anywhere.
+// A limit of memory makes large allocations fail; this makes any allocation fail.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>

@@ -17,8 +17,8 @@ namespace {
 
 constexpr int kSamples = 20, kComing = 10;
 constexpr double kRate_hz = 30;
-/// Of the samples in which the expression stays, the first are left out until the tissue has
-/// settled.
+/// Number of last samples that are evaluated. The expression is held for longer, since the tissue
+/// has to settle first.
 constexpr int kHeld = 6;
 
 constexpr int kRightCorner = 48, kLeftCorner = 54;

@@ -25,7 +25,7 @@ export const fewPixels = (context) =>
   });
 
 /** Waits until the page says that it is ready. `complaints`: errors, warnings and requests. `init`: a
- *  script that runs before the page's own. `pixels`: all of them, as readers see pictures. `readyMs`: from asking for the page until it is ready. */
+ *  script that runs before the page's own. `pixels`: all of them, as readers see pictures. `readyMs`: from requesting the page until it is ready. */
 export async function openPage(browser, file, { init, pixels = false, ...options } = {}) {
   const context = await browser.newContext({
     viewport: { width: 1360, height: 900 }, reducedMotion: 'reduce', ...options,

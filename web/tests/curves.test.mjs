@@ -34,7 +34,7 @@ async function saved(page, button) {
   return { name: download.suggestedFilename(), bytes: await readFile(await download.path()) };
 }
 
-/** Of a CSV file: names, and rows of texts. */
+/** Names and rows of texts of a CSV file. */
 function csv(bytes) {
   const rows = bytes.toString('utf8').trimEnd().split('\r\n').map((line) =>
     [...line.matchAll(/(?:^|,)(?:"((?:[^"]|"")*)"|([^,]*))/g)].map(([, quoted, plain]) => quoted?.replaceAll('""', '"') ?? plain));
@@ -51,7 +51,7 @@ const pixelsOf = (page, title, colour) =>
 
 const faceColours = ({ light, faces }, count) => Array.from({ length: count }, (_, i) => light[faces[i % faces.length]]);
 
-/** Of the strips just over and just under the dashed line at mid-time, the share that is inked. */
+/** Inked shares of the strips just over and just under the dashed line at mid-time. */
 const inkAround = (page, floor) =>
   card(page, symmetryTitle).locator('canvas').evaluate((canvas, share) => {
     const [box, over] = [canvas, canvas.parentElement.querySelector('.u-over')].map((e) => e.getBoundingClientRect());
@@ -97,7 +97,7 @@ describe(`curves of ${basename(report)}`, () => {
       assert.equal(await button.getAttribute('aria-pressed'), 'true', 'all are back');
   });
 
-  test('the legend tells all values at the time shown, and where the pointer is', async () => {
+  test('the legend shows all values at the time shown, and where the pointer is', async () => {
     for (const frame of [3, Math.round(0.5 * data.symmetry.time_s.length)]) {
       await goTo(frame);
       for (const [i, name] of names.entries())
@@ -207,7 +207,7 @@ describe(`curves of ${basename(report)}`, () => {
     await chooser.locator('summary').click();
   });
 
-  test('the table tells what the data hold', async () => {
+  test('the table shows what the data hold', async () => {
     const keys = [
       'greatest_displacement_mm', 'greatest_distance_mm', 'rms_distance_at_peak_mm', 'mean_displacement_R_mm',
       'mean_displacement_L_mm', 'asymmetry_rms_mm', 'added_xi_difference',
@@ -333,7 +333,7 @@ describe('figures that are rare', () => {
     assert.equal(await shown('options.time.step_s'), '0.005 s');
   });
 
-  test('changes are told in words', async () => {
+  test('changes are stated in words', async () => {
     const told = await page.locator('.variants tbody tr').evaluateAll((rows) =>
       rows.map((row) => [...row.querySelectorAll('th small')].map((s) => s.textContent)));
     const place = told[1].slice(-2);

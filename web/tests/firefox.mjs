@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Firefox by WebDriver BiDi (https://w3c.github.io/webdriver-bidi/), which Playwright does not speak to a Firefox as
+// Firefox by WebDriver BiDi (https://w3c.github.io/webdriver-bidi/), which Playwright does not support with a Firefox as
 // distributions ship it. It runs on a display of its own (Xvfb), as headless it has no WebGL, which Mesa then draws in
 // software.
 import { spawn } from 'node:child_process';
@@ -119,7 +119,7 @@ class FirefoxPage {
     Object.assign(this, { send, context, complaints });
   }
 
-  /** Of a function that runs in the page with JSON for arguments; what it returns is JSON too. */
+  /** Runs a function in the page. Its arguments and its result are passed as JSON. */
   async evaluate(run, ...args) {
     const expression = `JSON.stringify((${run})(...${JSON.stringify(args)}) ?? null)`;
     const answer = await this.send('script.evaluate', { expression, target: { context: this.context }, awaitPromise: true });

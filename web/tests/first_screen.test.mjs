@@ -65,7 +65,7 @@ describe('the first figures', () => {
       const text = await page.locator('#headline').textContent();
       assert.ok(text.startsWith(`right ${right.toFixed(1)} mm, left ${left.toFixed(1)} mm`), `${text}, not ${left} and ${right}`);
       const verdict = text.split(': ')[1];
-      // Of a variant what is changed against base is told beside the difference of the sides: sides.test.mjs.
+      // A variant's change against base is shown beside the difference of the sides: sides.test.mjs.
       if (i > 0) assert.match(await page.locator('.answers dd').first().textContent(), /^(both corners go|(right|left) .*) (as|than) in base/);
       else if (/undecided/.test(verdict)) assert.match(verdict, /^\d+\.\d+ mm apart/);
       else if (Math.abs(left - right) >= 0.05)
@@ -130,7 +130,7 @@ test('what is below its floor is undecided, and warnings come first', { skip: Bo
   const cells = await page.locator('.excursions tbody td .undecided').allTextContents();
   assert.deepEqual(cells, ['undecided (below 0.9 mm)', 'undecided (below 5.5 mm/s)']);
   assert.deepEqual(await page.locator('#note-list li').allTextContents(), ['Warning: A landmark is off', 'The scan has a hole']);
-  // They are told where the page begins, too.
+  // The top of the page counts them, too.
   assert.equal(await page.locator('#facts a[href="#note-list"]').textContent(), '1 warning');
   const rows = await page.locator('#summary-tables > .table-cards tr').allTextContents();
   assert.deepEqual(rows, ['Largest displacement of the skin25.5 mm'], 'grouped, with units, and nothing that is empty');

@@ -40,7 +40,7 @@ const outside = (page, selectors) => page.evaluate((all) => all.flatMap((selecto
 
 const faceShare = (page) => page.locator('#canvas-host').evaluate((host) => (host.clientWidth * host.clientHeight) / (innerWidth * innerHeight));
 
-/** The made-up studio with a variant that is asked for. */
+/** The made-up studio with one what-if variant. */
 async function asked(options = {}) {
   const studio = await openMadeUp(browser, () => [], options);
   await askWhatIf(studio.page, 'right side 30');
@@ -124,7 +124,7 @@ describe('the studio', { concurrency: false }, () => {
     await close();
   });
 
-  test('messages take no room where there are none; a warning is counted and told', async () => {
+  test('messages take no room where there are none; a warning is counted and shown', async () => {
     const quiet = await openMadeUp(browser, () => [], laptop);
     const height = (page) => page.evaluate(() => ['messages-panel', 'open-messages'].map((id) => document.getElementById(id).getBoundingClientRect().height));
     assert.deepEqual(await height(quiet.page), [0, 0]);
@@ -133,7 +133,7 @@ describe('the studio', { concurrency: false }, () => {
     const opener = page.getByRole('button', { name: '1 message, with warnings' });
     assert.equal(await opener.innerText(), '1');
     assert.match(await page.locator('#message-news').textContent(), /lips pass/);
-    assert.equal(await page.locator('#message-news').getAttribute('role'), 'status', 'told politely');
+    assert.equal(await page.locator('#message-news').getAttribute('role'), 'status', 'announced politely');
     assert.equal(await page.locator('#messages-panel').isVisible(), false);
     await opener.click();
     assert.deepEqual(await page.locator('#messages-panel li').allInnerTexts(), ['lips pass']);

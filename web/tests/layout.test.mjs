@@ -87,7 +87,7 @@ test('fingers have 44 px, and a bar of choices that has no room is scrolled: stu
   }
   await page.locator('#tab-muscles').click();
   await shoot(page, 'studio_1024');
-  // As with three more colourings.
+  // Three more colourings make the bar too wide.
   await page.locator('#colouring').evaluate((bar) => {
     for (const text of ['Difference', 'Young’s modulus', 'Viscosity']) bar.append(Object.assign(document.createElement('button'), { textContent: text }));
   });

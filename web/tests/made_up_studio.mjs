@@ -45,7 +45,7 @@ function skin() {
   return { points, triangles: new Int32Array(triangles), mirror };
 }
 
-/** Of base, or a variant of the same motion. */
+/** The motion of base or of a variant, which is the same. */
 function motionOf(block, { points }) {
   const values = new Int16Array(points.length);
   for (let v = 0; v < points.length; v += 3) values[v + 1] = 1000;
@@ -139,7 +139,7 @@ class Session {
       : { table: [], seconds: 0.1, bands: false };
     this.socket.send(binary({ event, replay, activations: null, ...head }, block));
   }
-  /** Of base and of the first variant. */
+  /** Sends the error budget of base and of the first variant. */
   budget() {
     const figure = (of, side, value_mm, half_width_95_mm, more) => ({ figure: of, ...(side ? { side } : {}), value_mm, half_width_95_mm, largest_part: 'mesh', ...more });
     const figures = [
@@ -165,7 +165,7 @@ class Session {
       paint: () => ({ file: `painted-${this.requests.length}.csv` }),
     };
     const found = answers[name]?.();
-    // As from the program: the scene comes before the answer, but after that to hello.
+    // The order of the program: the scene comes before the answer, but after the answer to hello.
     if (!['hello', 'region_shares', 'error_budget'].includes(name) && !fields.live) this.scene();
     this.send({ answer: id, ...found });
     if (name === 'error_budget') this.budget();

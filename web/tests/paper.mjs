@@ -6,10 +6,10 @@ const perMm = 96 / 25.4;
 export const a4 = { width: 186 * perMm, height: 273 * perMm };
 export const millimetres = (px) => px / perMm;
 
-/** Of a PDF. */
+/** Number of pages of a PDF. */
 export const pagesOf = (pdf) => pdf.toString('latin1').match(/\/Type\s*\/Page\b/g)?.length ?? 0;
 
-/** As it is laid out for the printer, or again for the screen; the page hears of it a little later. */
+/** Lays the page out for the printer, or again for the screen, and waits until the page has noticed. */
 export async function onPaper(page, on) {
   await page.emulateMedia({ media: on ? 'print' : 'screen' });
   await page.waitForSelector(on ? 'html.printing' : 'html:not(.printing)');

@@ -35,7 +35,8 @@ export const changedShare = (before, after, part = {}) =>
     return changed / all;
   }, { b: after, ...part });
 
-/** Of the left half's pixels those that differ from the right half's, between labels and buttons. */
+/** Share of the left half's pixels that differ from those at the same place in the right half, between labels and
+ *  buttons. */
 export const halvesDiffer = (picture) =>
   picture.evaluate(({ width, height, data }) => {
     const half = Math.floor(width / 2);

@@ -68,7 +68,7 @@ test('the uncertainty of the head’s pose stands below the headline, where it e
   await small.close();
 });
 
-test('a saved picture tells figures below the faces, with their limits, and no number leaves its unit', async () => {
+test('a saved picture shows figures below the faces, with their limits, and no number leaves its unit', async () => {
   const { page, close } = await changedPage((data) => {
     uncertainHead(data);
     data.summary.symmetry = { excursions: pair(6.7, 6.2) };
@@ -180,7 +180,7 @@ test('tables that are wider than the window say so and scroll in a box of their 
   await rm(dirname(file), { recursive: true });
 });
 
-test('the wheel zooms about the pointer, and the list of keys tells what the pointer does', async () => {
+test('the wheel zooms about the pointer, and the list of keys states what the pointer does', async () => {
   const { page, close } = await openPage(browser, fixture('plain.html'));
   const box = await page.locator('#face').boundingBox();
   const [x, y] = [box.x + 0.6 * box.width, box.y + 0.6 * box.height];

@@ -184,7 +184,7 @@ describe('a report with variants', () => {
     await page.keyboard.press('w');
   });
 
-  test('colours tell displacement, difference, asymmetry and tissue, each with its bar', async () => {
+  test('colours show displacement, difference, asymmetry and tissue, each with its bar', async () => {
     await page.keyboard.press('1');
     await drawn(page, '0');
     const buttons = page.locator('#colouring button');
@@ -269,7 +269,7 @@ describe('a report with variants', () => {
     await page.keyboard.press('p');
   });
 
-  test('pressing the face tells figures at a place, resting on it too, and Escape clears them', async () => {
+  test('pressing the face shows figures at a place, resting on it too, and Escape clears them', async () => {
     const readout = page.locator('.readout');
     const figures = () => readout.locator('tbody tr').evaluateAll((rows) =>
       rows.map((row) => [...row.querySelectorAll('td')].map((cell) => Number.parseFloat(cell.textContent))));
@@ -298,7 +298,7 @@ describe('a report with variants', () => {
     await page.mouse.down();
     await page.mouse.move(cheek[0] - 30, cheek[1], { steps: 3 });
     await page.mouse.up();
-    assert.equal(await readout.isVisible(), false, 'turning the face tells no figures');
+    assert.equal(await readout.isVisible(), false, 'turning the face shows no figures');
     await page.mouse.click(box.x + 20, box.y + 0.5 * box.height);
     assert.equal(await readout.isVisible(), false, 'beside the face there is none');
     await page.mouse.move(0, 0);

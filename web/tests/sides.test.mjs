@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The subject's own sides: marked in every view and picture, in one order in words and tables, and told so that a
+// The subject's own sides: marked in every view and picture, in one order in words and tables, and worded so that a
 // weak side which is dragged does not make the healthy one look weak.
 //   SCREENSHOTS=/tmp/pictures node --test web/tests/sides.test.mjs
 import assert from 'node:assert/strict';

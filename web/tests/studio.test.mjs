@@ -103,7 +103,7 @@ describe('the studio', { skip, concurrency: false }, () => {
     assert.match(picture.suggestedFilename(), /^a-smile-base-right-side-70.*\.png$/);
     assert.deepEqual([...(await readFile(await picture.path())).subarray(1, 4)].map((c) => String.fromCharCode(c)).join(''), 'PNG');
 
-    // As a video: the motion once from its start.
+    // A video shows the motion once from its start.
     const [video] = await Promise.all([page.waitForEvent('download'), page.click('#save-video')]);
     assert.match(video.suggestedFilename(), /right-side-70\.webm$/);
     const film = await readFile(await video.path());

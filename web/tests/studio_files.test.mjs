@@ -107,7 +107,7 @@ test('doubts about landmarks and the head stand beside the figures, also after t
   await close();
 });
 
-test('a video is told from a file of its ending', async () => {
+test('a video is distinguished from another file with its extension', async () => {
   const { kindOf } = await imported('studio/file_kinds.ts');
   const kind = (name, text) => kindOf(new File([Buffer.from(text, 'latin1')], name));
   assert.equal(await kind('a.mp4', '\0\0\0\x18ftypisom'), 'recording');

@@ -9,7 +9,7 @@ import { askWhatIf } from './studio_server.mjs';
 
 const id = 'variant.muscle_hardly_used';
 const weak = (face) => 'frontal_med_R' in face.values['muscles.gain'];
-/** As the program: a variant that changes a muscle which the recording hardly uses. */
+/** The warnings of the program on variants that change a muscle which the recording hardly uses. */
 const remarksOf = (faces) => faces.slice(1).filter(weak)
   .map(({ name }) => ({ id, severity: 'warning', text: `variant ${name}: hardly known`, key: 'muscles.gain', variant: name }));
 
@@ -82,7 +82,7 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await page.locator('#tabs .tab-name').first().click();
     await pull('side_R', 'PageDown');
     await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[2]?.innerText === 'right side 80 %');
-    // As somebody calls it.
+    // Somebody renames the face.
     session().faces[1].name = 'visit A';
     session().scene();
     await named('visit A');

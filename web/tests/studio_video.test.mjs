@@ -73,7 +73,7 @@ async function saved(page) {
   return readFile(await download.path());
 }
 
-/** As drawing is on a slow or busy machine. */
+/** Makes drawing as slow as on a slow or busy machine. */
 const slowly = () => {
   const draw = HTMLCanvasElement.prototype.getContext;
   HTMLCanvasElement.prototype.getContext = function (...args) {
@@ -93,7 +93,7 @@ test('has a picture for each frame of the motion, at its time, on a slow machine
   const { page, complaints, close } = await openMadeUp(browser, () => [], { init: slowly });
   assert.equal(await page.locator('#save-video').textContent(), 'Save video');
   const bytes = await saved(page);
-  // Of the made-up motion.
+  // Times of the made-up motion.
   assert.deepEqual(timesOf(bytes), [0, 500, 1000]);
   const { duration, width, height, distinct, last } = await played(page, bytes, [0, 500, 1000]);
   assert.equal(distinct, 3);

@@ -77,7 +77,7 @@ for (const file of files) {
       assert.equal(await card(page, 'Depth').count(), data.metric ? 1 : 0);
     });
 
-    test('the first frame is told from the start', async () => {
+    test('the first frame is shown from the start', async () => {
       assert.equal(await legend(page, 'Turn', 'yaw'), data.value('turn', 'yaw', 0));
       assert.equal(await legend(page, 'Mouth width', 'width'), Number(data.value('distance', 'mouth width', 0).toFixed(2)));
     });
@@ -113,7 +113,7 @@ for (const file of files) {
       assert.ok(Math.abs((await shownFrame(page)) - wanted) <= 0.005 * data.time_s.length + 1);
     });
 
-    test('a frame that is not valid is shaded and told', async (t) => {
+    test('a frame that is not valid is shaded and stated', async (t) => {
       if (data.faults.length === 0) return t.skip('all frames are valid');
       const [{ first, fault }] = data.faults;
       await page.getByRole('button', { name: fault }).first().click();

@@ -185,7 +185,7 @@ std::vector<std::string> slip_problems(const KnownLandmarks& known) {
   return problems;
 }
 
-/// Does the face, as the landmarks place it, look out of the scan's surface?
+/// Whether the face, placed by the landmarks, faces the outer side of the scan's surface.
 bool looks_outwards(const KnownLandmarks& known, const TriMesh& scan, const SurfaceTree& tree) {
   const Similarity scan_from_canonical = fit_similarity(known.canonical, known.given);
   const Vec3 forward = scan_from_canonical.rotation * Vec3::UnitZ();

@@ -17,7 +17,7 @@ class VideoReader {
   virtual ~VideoReader() = default;
   /// False at the end.
   virtual bool read(cv::Mat& picture) = 0;
-  /// As the file states it; 0 or meaningless if it does not.
+  /// The rate that the file states; 0 or meaningless if it states none.
   virtual double frames_a_second() const = 0;
   virtual double frame_count() const = 0;  ///< likewise
   virtual double position_s() const = 0;   ///< of the last picture read

@@ -62,19 +62,20 @@ inline constexpr Unit kKilogramsPerCubicMetre{"kg/m^3", "_kg_m3", "kg/m^3", "_kg
 /// Details of an option, in addition to its sentence.
 struct OptionDetails {
   Unit unit = {};
-  Bounds bounds = {0, std::numeric_limits<double>::infinity()};  ///< of numbers, SI
-  /// In scene files: the key within its section where it is not the member's name (in the unit of
-  /// keys), or with a dot the whole key. Of options described in turn: what their keys begin with.
+  Bounds bounds = {0, std::numeric_limits<double>::infinity()};  ///< for numbers, SI
+  /// Key in scene files where it differs from the member's name (in the unit of keys): within its
+  /// section, or the whole key if it contains a dot. For options described in turn: the prefix of
+  /// their keys.
   const char* key = nullptr;
   const char* name = nullptr;  ///< in Python, where it is not the member's
   bool in_scene = true;        ///< false: from C++ and Python alone
   bool required = false;       ///< in scene files
-  std::size_t least = 0;       ///< how many elements; of a text: how many characters
+  std::size_t least = 0;       ///< number of elements; for a text: of characters
   std::size_t most = 1000;
-  /// Of a truth value: the words for true and for false. Of a text: its allowed values.
+  /// For a truth value: the words for true and for false. For a text: its allowed values.
   std::array<const char*, 3> words = {};
   const char* none = nullptr;   ///< the word of an optional that holds nothing
-  bool folder_too = false;      ///< of a path: folders are allowed
+  bool folder_too = false;      ///< for a path: folders are allowed
   const char* only_where = "";  ///< a condition without which it has no effect
 };
 

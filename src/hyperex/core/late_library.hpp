@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// Parts of the program in shared libraries of their own, loaded when they are first asked for: what
+// Parts of the program in shared libraries of their own, loaded at first use: the libraries that
 // they link to would take time at the start of every command.
 #include <filesystem>
 #include <string>

@@ -27,7 +27,7 @@ class NamedFiles {
   std::vector<std::filesystem::path> requested_;
 };
 
-/// As read_file, but a pipe is refused too, before it is opened: it might wait for ever.
+/// Like read_file, but refuses a pipe too, before it is opened: reading one might wait for ever.
 std::string read_regular_file(const std::filesystem::path& path);
 
 }  // namespace hyperex

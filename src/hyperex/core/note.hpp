@@ -26,7 +26,7 @@ struct Note {
 Note make_note(std::string id, std::string text, std::string key = "");
 Note make_warning(std::string id, std::string text, std::string key = "");
 
-/// Those of one severity, in order.
+/// The notes of one severity, in order.
 std::vector<Note> notes_of(const std::vector<Note>& notes, Severity severity);
 
 /// The sentences, in order: all, or those of one severity.

@@ -145,7 +145,7 @@ void take_surfaces(CtFace& face, const CtOptions& options) {
   }
   if (!face.separated && !face.own_bones)
     face.warnings.push_back(
-        "The mandible was not told from the skull and is part of its surface: give a point in "
+        "The mandible was not separated from the skull and is part of its surface: give a point in "
         "each, "
         "--seed-skull and --seed-mandible.");
 }

@@ -189,7 +189,7 @@ DicomSlice header_of(const fs::path& file, const std::string& bytes, std::set<st
   if (!slice.fault.empty()) return slice;
   auto values = itk_library().values_of(bytes, all_tags());
   if (!values) {
-    slice.fault = "is damaged: what stands in its header is no DICOM";
+    slice.fault = "is damaged: its header is not valid DICOM";
     return slice;
   }
   const Header header(std::move(*values));

@@ -33,7 +33,7 @@ struct Fault {
 };
 
 constexpr const char* kCut = "is cut off: it ends before the last pixel";
-constexpr const char* kDamaged = "is damaged: what stands in its header is no DICOM";
+constexpr const char* kDamaged = "is damaged: its header is not valid DICOM";
 
 class Walk {
  public:

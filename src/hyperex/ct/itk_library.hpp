@@ -37,8 +37,7 @@ struct DicomPixels {
 
 using DicomTag = std::pair<std::uint16_t, std::uint16_t>;
 struct DicomValues {
-  std::vector<std::string>
-      values;  ///< of the tags asked for, as they stand; "" where there is none
+  std::vector<std::string> values;  ///< of the requested tags, as stored; "" where there is none
   bool has_picture = false, compressed = false;
   std::size_t picture_bytes = 0;  ///< 0 where it is compressed
 };

@@ -50,8 +50,9 @@ TriMesh surface_of(const Volume& labels, int label, const fs::path& file) {
   return mesh;
 }
 
-/// A bone in the frame of the patient lies turned in the one of the face, and so do its vertices
-/// lie in air, even where the two frames have one origin within the head.
+/// Throws where too few of the bone's vertices lie in tissue, as for a bone in the wrong frame. The
+/// frames of patient and face are rotated against each other, so that part of such a bone lies in
+/// air even if both have one origin within the head.
 void check_inside(const TriMesh& bone, const Volume& head, double skin_hu, const fs::path& file) {
   if (bone.triangles.rows() == 0) return;
   Eigen::Index inside = 0;

@@ -37,8 +37,8 @@ constexpr double kMostThickness_m = 0.05;
 Thickness measure_thickness(const TriMesh& skin, const TriMesh& bone, const FaceBounds& bounds,
                             const FoundPoints& points);
 
-/// Of the mandible: its back, the lowest place of its front 30 mm and that of its back 30 mm.
-/// Without a mandible: the middle of the skull, and its lowest place.
+/// The bounds by the back of the mandible, the lowest place of its front 30 mm and that of its back
+/// 30 mm. Without a mandible: by the middle of the skull and its lowest place.
 FaceBounds face_bounds(const TriMesh& skull, const TriMesh& mandible);
 
 }  // namespace hyperex::ct

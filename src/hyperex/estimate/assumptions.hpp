@@ -3,16 +3,18 @@
 
 namespace hyperex::estimate {
 
-/// What is assumed about a face and its recordings before any is seen, as standard deviations.
+/// Assumptions about a face and its recordings before any is seen. All are prior standard
+/// deviations (1 sigma) but misfit_share and misfit_length_m.
 struct Assumptions {
-  /// Of what is asked: of the logarithm of a ratio of stiffness about 0, and of a gain about 1.
+  /// Prior 1 sigma: of ln(stiffness ratio), mean 0; of a gain, mean 1.
   double log_ratio = 1.6, gain = 1;
-  /// Of the logarithm of Young's modulus over the scene's, where known loads determine it.
+  /// The same of ln(Young's modulus over the scene's), mean 0, where known loads determine it.
   double log_young = 1.6;
-  double load_turn_rad = 0.1;  ///< of the direction of a known load, before and after
-  /// Of the logarithm of the whole tissue's stiffness, relative to its support on the bones.
+  /// Error of a known load's direction, while it acts and before: rotation about each axis.
+  double load_turn_rad = 0.1;
+  /// The same of ln(the whole tissue's stiffness relative to its support on the bones), mean 0.
   double log_tissue = 0.5;
-  /// Of a muscle's place: distance along the skin from where the template has it, m.
+  /// Position of a muscle: distance along the skin from where the template has it, m.
   double line_m = 0.002;
   /// A person tries the same on both sides: relative standard deviation of the difference from the
   /// mean of both, common to all muscles of a recording, and of each muscle.

@@ -102,7 +102,7 @@ std::vector<KnownLoad> loads_of(const session::Inputs& in, const Request& reques
   return out;
 }
 
-/// Of expressions, then of known loads. Each counts as independent of the others.
+/// Recordings of expressions, then of known loads. Each counts as independent of the others.
 std::vector<fs::path> files_of(const scene::Scene& scene, const Request& request) {
   std::vector<fs::path> out = request.recordings;
   if (!request.lying.empty()) out.push_back(request.lying);

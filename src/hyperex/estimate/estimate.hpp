@@ -18,7 +18,7 @@ struct HungWeight {
   double mass_kg = 0;
 };
 
-/// What the user asks.
+/// What the user wants to know.
 struct Request {
   /// Recordings of the same face beside the scene's, each of another expression, of the same
   /// kind: points, or weights where the scene has motion.arkit.
@@ -61,8 +61,8 @@ struct Alike {
 inline constexpr double kAlike = 0.9;
 
 struct Estimate {
-  std::vector<Finding>
-      findings;              ///< ratios, then gains, as they were asked for; then Young's modulus
+  /// Ratios, then gains, in the order of the request; then Young's modulus.
+  std::vector<Finding> findings;
   std::vector<Alike> alike;  ///< pairs whose |cosine| is kAlike or more
   std::vector<Observation> recordings;
   std::vector<std::string> points;

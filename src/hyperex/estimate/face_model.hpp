@@ -24,7 +24,7 @@ struct FaceModel {
   simulate::JawKinematics jaw;
   double half;  ///< MuscleOptions::half
   MusclePrior prior;
-  std::vector<std::vector<int>> acts;  ///< per gain that is asked for: the muscles it acts on
+  std::vector<std::vector<int>> acts;  ///< per requested gain: the muscles it acts on
   Points places;                       ///< of the points at rest, P x 3, m
   std::vector<KnownLoad> loads;
 };

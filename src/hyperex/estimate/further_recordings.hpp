@@ -12,10 +12,11 @@ namespace hyperex::estimate {
 class FurtherRecordings {
  public:
   explicit FurtherRecordings(const session::FaceSession& session);
-  /// Of the same kind as the scene's, with its options. Throws InputError.
+  /// Reads a recording of the same kind as the scene's, with the scene's options. Throws
+  /// InputError.
   session::Inputs read(const std::filesystem::path& file) const;
-  /// Named points (CSV, TRC), of which the first sample is at rest. Of the scene's options for
-  /// motion those of the points alone count. Throws InputError.
+  /// Reads named points (CSV, TRC), of which the first sample is at rest. From [motion], only the
+  /// options on points apply. Throws InputError.
   session::Inputs read_points(const std::filesystem::path& file) const;
 
  private:

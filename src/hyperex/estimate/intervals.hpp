@@ -7,16 +7,16 @@
 
 namespace hyperex::estimate {
 
-/// An interval is an answer where the ends of that of a ratio differ by a factor of at most
-/// kWidestRatio, and those of a gain by at most kWidestGain.
+/// An interval counts as an answer if it is narrow enough: the ends of a ratio's interval differ by
+/// a factor of at most kWidestRatio, and those of a gain's by at most kWidestGain.
 inline constexpr double kWidestRatio = 2.5, kWidestGain = 0.8;
 
-/// Of a logarithm (of a ratio, or of Young's modulus) or a gain.
+/// An interval of a logarithm (of a ratio, or of Young's modulus) or of a gain.
 struct Range {
   double low = 0, high = 0;
 };
 
-/// 95 % intervals of one of the unknowns that are asked for.
+/// 95 % intervals of one of the requested unknowns.
 struct AskedInterval {
   double value = 0, sigma = 0;
   Range laplace;  ///< from the curvature at the mode
@@ -25,8 +25,8 @@ struct AskedInterval {
   Range profile;
 };
 
-/// The covariance of the unknowns that are asked for (Unknowns::asked(), in their order) by the
-/// curvature at the mode. Unknowns at a bound do not vary.
+/// The covariance of the requested unknowns (Unknowns::asked(), in their order) by the curvature at
+/// the mode. Unknowns at a bound do not vary.
 Eigen::MatrixXd asked_covariance(const Mode& mode, const Unknowns& unknowns);
 
 /// `which`: of Unknowns::asked(). Gains are at least 0.

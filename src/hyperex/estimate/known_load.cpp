@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kGravity_m_s2 = 9.81, kFarthest_m = 0.01;
 
-/// Of each node of the skin, summing to 1.
+/// Share of a weight at `place` that each node of the skin carries; the shares sum to 1.
 Eigen::VectorXd shares_about(const tissue::TissueMesh& mesh, const Vec3& place) {
   const auto skin = mesh.volume.nodes.topRows(mesh.volume.surface_nodes());
   const Eigen::VectorXd squares = (skin.rowwise() - place.transpose()).rowwise().squaredNorm();

@@ -35,7 +35,7 @@ KnownLoad hung_weight(const io::Landmarks& landmarks, const Vec3& place, double 
 Eigen::MatrixXd unit_forces_of(const KnownLoad& load, const tissue::TissueMesh& mesh,
                                const fem::SparseMatrix& mass);
 
-/// Of tape that holds a weight, 1 sigma.
+/// Spread (1 sigma) over the skin of the tape that holds a weight.
 inline constexpr double kWeightSpread_m = 0.005;
 
 }  // namespace hyperex::estimate

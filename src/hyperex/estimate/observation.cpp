@@ -9,13 +9,14 @@
 namespace hyperex::estimate {
 namespace {
 
-/// Samples this near to the peak count to it.
+/// Samples next to the peak with this share of its displacement or more count as the peak.
 constexpr double kNearPeak = 0.95;
 /// A recording that moves less has no expression.
 constexpr double kLeastMotion_m = 5e-4;
-/// Of a recording under a load: this share of its samples, at the end, is under the load; samples
-/// that have gone this share of the way to there are too.
-constexpr double kEnding = 0.1, kHeld = 0.8;
+/// The last such share of the samples counts as loaded.
+constexpr double kEnding = 0.1;
+/// So do samples that have gone this share of the way to the mean of the last ones.
+constexpr double kHeld = 0.8;
 
 Eigen::VectorXd displacement(const motion::Motion& motion, const std::vector<int>& rows,
                              std::size_t sample) {
@@ -26,7 +27,7 @@ Eigen::VectorXd displacement(const motion::Motion& motion, const std::vector<int
   return out;
 }
 
-/// Of all samples: root mean square over the points, m.
+/// Distance of each sample from the first one: root mean square over the points, m.
 std::vector<double> distances(const motion::Motion& motion, const std::vector<int>& rows) {
   std::vector<double> out;
   for (std::size_t k = 0; k < motion.positions.size(); ++k)

@@ -12,7 +12,7 @@ namespace hyperex::estimate {
 struct Observation {
   std::string name;
   int load = -1;  ///< of Question::loads; below 0: muscles act
-  /// Of the points from rest, x y z of each in turn, m.
+  /// Displacement of the points from rest: x, y, z of each in turn, m.
   Eigen::VectorXd displacement_m;
   double time_s = 0;   ///< of the peak, from the first sample
   int samples = 0;     ///< that the displacement is the mean of
@@ -35,9 +35,9 @@ Observation observe(const simulate::AlignedMotion& recording,
                     const std::vector<std::string>& points, const RecordingErrors& errors,
                     const std::string& name);
 
-/// The recording while a known load acts: the mean over the last tenth of its samples, in which the
-/// load acts, and over all that have gone four fifths of the way to there. What hardly moves counts
-/// too: it is stiff. time_s: of the first such sample.
+/// The recording while a known load acts: the mean over the last tenth of its samples, and over all
+/// that have gone four fifths of the way to these. A recording that hardly moves is not refused,
+/// since stiff tissue hardly moves. time_s: of the first such sample.
 Observation observe_load(const simulate::AlignedMotion& recording,
                          const std::vector<std::string>& points, const RecordingErrors& errors,
                          const std::string& name);

@@ -7,10 +7,10 @@
 
 namespace hyperex::estimate {
 
-/// What a further recording is expected to tell.
+/// What a further recording is expected to determine.
 struct Proposal {
   std::string expression;
-  Eigen::VectorXd sigma;  ///< of each unknown that is asked for, with that recording too
+  Eigen::VectorXd sigma;  ///< of each requested unknown, with that recording too
 };
 
 /// One for each standard expression, in their order: the curvature at the mode with the expected

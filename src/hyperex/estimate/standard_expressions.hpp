@@ -8,7 +8,7 @@
 
 namespace hyperex::estimate {
 
-/// An expression that a person can be asked for.
+/// An expression that a person can make on request.
 struct StandardExpression {
   std::string name;                                         ///< "smile"
   std::vector<std::pair<std::string, double>> activations;  ///< of muscles, the same on both sides

@@ -18,7 +18,7 @@ struct Unknowns {
   Eigen::Index young() const { return ratios + gains; }
   /// Logarithm of the same, relative to the support on the bones.
   Eigen::Index tissue() const { return asked(); }
-  /// Of one way (0 out, 1 up), m.
+  /// Displacements of the muscles' lines in one direction (0: outwards, 1: up), m.
   Eigen::Index lines(int way) const { return asked() + 1 + way * muscles; }
   Eigen::Index shared() const { return asked() + 1 + 2 * muscles; }
 
@@ -27,7 +27,7 @@ struct Unknowns {
   Eigen::Index jaw(Eigen::Index recording) const { return activations(recording) + muscles; }
   /// An error of the head's pose: a rotation (rad) about the middle of the points, and a shift (m).
   Eigen::Index head(Eigen::Index recording) const { return jaw(recording) + 6; }
-  /// Errors of a known load's direction: a rotation of it while it acts and of it before, rad.
+  /// Errors of a known load's direction: its rotation while it acts and its rotation before, rad.
   Eigen::Index load_turn(Eigen::Index recording) const { return head(recording) + 6; }
   Eigen::Index all() const { return shared() + recordings * each(); }
 

@@ -163,7 +163,7 @@ BlendShapes read_openface(const std::filesystem::path& file) {
         ++lost;
       }
   if (lost > 0) out.notes.push_back(fmt::format("{} of {} frames without a face", lost, rows));
-  out.notes.emplace_back("OpenFace tells no sides: left and right move alike");
+  out.notes.emplace_back("OpenFace does not distinguish sides: left and right move alike");
   return out;
 }
 

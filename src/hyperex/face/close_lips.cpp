@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLeft_m = 0.2e-3;
 constexpr double kLowerShare = 0.7, kLowerReach_m = 0.018, kUpperReach_m = 0.010;
-constexpr double kSpread = 0.7;  // of the mean along the edge, as a share of the distance from it
+constexpr double kSpread = 0.7;  // 1 sigma of the averaging along the edge, over the distance
 
 using Edge = std::vector<Vec3>;  // with rising x
 

@@ -10,10 +10,10 @@ namespace hyperex::face {
 /// left, +y up. `contour`: the vertices of the lips' inner edge, the upper lip from the subject's
 /// right corner to the left one, then the lower lip back; the two lips have equally many.
 ///
-/// Seven tenths of the way are the lower lip's, which follows the jaw. What lies off the edges goes
-/// along by a Gaussian of its distance from them, of 18 mm below and 10 mm above, and takes the
-/// mean way of a part of the edge as wide as it is far. So the skin beside the corners moves a
-/// little too.
+/// The lower lip, which follows the jaw, moves by seven tenths of the gap, the upper lip by the
+/// rest. Off the edges the displacement decreases as a Gaussian of the distance from them, with 1
+/// sigma of 18 mm below and 10 mm above. It is averaged along the edge over a width that grows with
+/// that distance. So the skin beside the corners moves a little too.
 void close_lips(Points& points, const std::vector<int>& contour);
 
 }  // namespace hyperex::face

@@ -6,20 +6,21 @@
 
 namespace hyperex {
 
-/// The triangles of a surface that a place may be matched with where lips touch: a place of one lip
-/// must not find the other.
+/// Which triangles of a surface a place may be matched with: a place on one lip must not be matched
+/// with the other lip, even where the two are in contact.
 class SidedTriangles {
  public:
   /// `side` has one number per vertex: 1 on one lip, -1 on the other, 0 elsewhere. Where it is
   /// empty, a place may be matched with any triangle.
   SidedTriangles(const TriMesh& mesh, const std::vector<int>& side);
 
-  /// Per triangle, 1 where it is open to a place of that side: where it has no vertex of the other
-  /// one. All of them where every triangle has.
+  /// Per triangle, 1 where a place of that side may be matched with it: it has no vertex of the
+  /// other side. All are 1 where every triangle has such a vertex.
   const std::vector<char>& open_to(int side) const;
 
  private:
-  std::vector<char> all_, without_first_, without_second_;  ///< the latter two empty where none
+  std::vector<char> all_;
+  std::vector<char> without_first_, without_second_;  ///< empty: no such triangle, or no sides
 };
 
 }  // namespace hyperex

@@ -155,8 +155,9 @@ double noise_left(const std::vector<double>& time_s, const Path& path, std::size
   return lowpassed_noise(measured_s, own, lowpass_hz);
 }
 
-/// Of the four positions of both sides. Jitter that lasts longer than white noise would is not
-/// filtered away.
+/// The share of jitter (of its variance) that the filter leaves, as the mean over the first and the
+/// farthest position of both sides. `widening` allows for jitter that is correlated over time,
+/// which the filter removes less than white noise.
 double jitter_share(const std::vector<double>& time_s, const std::array<const Path*, 2>& sides,
                     double widening, double lowpass_hz) {
   double squares = 0;

@@ -41,7 +41,7 @@ std::vector<Seen> seen_from_front(const TriMesh& skin, const face::FaceFrame& fr
   return out;
 }
 
-/// The height of a triangle at a place; nothing beside it.
+/// The height of a triangle at a place; nothing where the triangle does not cover the place.
 std::optional<double> height_at(const Seen& seen, const Eigen::Vector2d& at) {
   if ((at.array() < seen.low.array()).any() || (at.array() > seen.high.array()).any()) return {};
   const Eigen::Vector2d a = seen.corners.row(0).head<2>(), b = seen.corners.row(1).head<2>(),

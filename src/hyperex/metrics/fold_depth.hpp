@@ -22,8 +22,8 @@ Groove groove_of(const std::vector<double>& height_mm, double step_mm);
 struct FoldCut {
   /// NaN where the surface has a hole, or ends less than 20 mm outwards.
   double depth_mm = 0;
-  /// Of the deepest point from the line between the wing of the nose and the corner of the mouth,
-  /// outwards; NaN where the groove is shallower than 0.5 mm.
+  /// Distance of the deepest point, outwards, from the line between the wing of the nose and the
+  /// corner of the mouth; NaN where the groove is shallower than 0.5 mm.
   double outward_mm = 0;
 };
 

@@ -38,7 +38,7 @@ std::vector<Stretches> twin_remainders(const motion::Motion& run, const motion::
 
 std::vector<double> xi_mesh_floor(const motion::Motion& run, const motion::Motion& twin,
                                   const std::vector<Stretches>& remainders) {
-  // As for excursions, there are two positions per side: this jitter gives a difference of
+  // There are two positions per side, as for excursions. So this jitter gives a difference of
   // kResolution_m.
   std::vector<double> floor = symmetry_noise(run, kResolution_m / (2 * two_sided_95));
   if (floor.size() != remainders.size() || twin.positions.size() != remainders.size())

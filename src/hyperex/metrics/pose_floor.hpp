@@ -15,7 +15,7 @@ struct PoseVariance {
   double all = 0, of_jitter = 0;
 };
 
-/// Of the excursion of each side, and of the difference between them.
+/// Variances of the excursion of each side and of the difference between the sides.
 struct PairPoseVariance {
   PoseVariance left, right, difference;
 };
@@ -31,7 +31,7 @@ PairPoseVariance pose_variance(const motion::Motion& steady,
                                const std::vector<motion::UncertainPose>& poses, int left, int right,
                                double lowpass_hz);
 
-/// Of all pairs by their names.
+/// pose_variance() of all pairs, by their names.
 std::map<std::string, PairPoseVariance> pose_variances(
     const motion::Motion& steady, const std::vector<motion::UncertainPose>& poses,
     double lowpass_hz);

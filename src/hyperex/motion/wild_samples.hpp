@@ -37,9 +37,11 @@ inline constexpr double kWildJump_m = 0.02, kWildSpeed_m_s = 0.6;
 /// no jump is found.
 MendedMotion without_wild_samples(const Motion& motion);
 
-/// The largest distance of a point of a face from its first reading, m; and the same beside the
-/// median of all points where the head's motion is in it: a head that turns adds to it.
-inline constexpr double kFarthest_m = 0.15, kFarthestBesideHead_m = 0.25;
+/// The largest plausible distance of a point of a face from its first reading, m.
+inline constexpr double kFarthest_m = 0.15;
+/// The same, relative to the median of all points, in a motion that contains the head's. It is
+/// larger because a turning head adds to the distance.
+inline constexpr double kFarthestBesideHead_m = 0.25;
 
 /// Throws InputError naming the line, the point, the time and the distance of the first reading
 /// farther than kFarthest_m from the point's first reading. `steady`: a motion without head pose.

@@ -127,7 +127,7 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
                         std::min(0.03, 0.25 * length_m[i])});
     Opening& opening = openings.back();
     opening.mouth = is_mouth(loops[i], skin.points, corners);
-    // As deep as a row of teeth.
+    // About the depth of a row of teeth.
     if (opening.mouth) opening.depth_m = 0.5 * length_m[i];
     const auto room = [&](double low_m, double high_m) {
       return room_behind(opening, low_m, high_m, loops[std::size_t(border)], skin.points, corners);

@@ -1,6 +1,7 @@
-// SPDX-License-Identifier: GPL-3.0-or-later The sections of the report's page with geometry.
-// Numbers are appended to `block`; the JSON states their positions.
+// SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+// The sections of the report's page with geometry. Numbers are appended to `block`; the JSON states
+// their positions.
 #include "hyperex/report/html_report.hpp"
 #include "hyperex/report/page_data.hpp"
 

@@ -62,7 +62,8 @@ std::vector<Eigen::Isometry3d> jaws_of(const simulate::Performance& performance,
   return jaws;
 }
 
-/// Poses of the skin that fill what the others leave of the file, and how they follow each other.
+/// Adds the performance as morph targets of the skin and an animation of their weights. The targets
+/// may take the bytes that the other parts leave of options.max_bytes.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
                      const std::vector<Opening>& openings, const Points& cavity,
@@ -96,7 +97,7 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   GltfArrays arrays(model);
   const SkinView view = skin_view(performance, scan);
   const tinygltf::Primitive skin = skin_primitive(model, arrays, view, performance, scan);
-  // Before the poses, which fill what the others leave of the file.
+  // Added before the morph targets, which may take the rest of options.max_bytes.
   const FaceBacking backing = face_backing(performance, options.teeth);
   FaceNodes nodes;
   add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);

@@ -4,8 +4,8 @@
 
 namespace hyperex::report {
 
-/// Of the two quaternions of a rotation, the one nearer to the previous quaternion, so that players
-/// can interpolate between them.
+/// The quaternion of a rotation, with the sign that brings it nearer to the previous quaternion, so
+/// that players can interpolate between the two.
 inline Eigen::Quaterniond near_to(const Eigen::Quaterniond& before, const Eigen::Matrix3d& turn) {
   Eigen::Quaterniond out(turn);
   if (out.dot(before) < 0) out.coeffs() *= -1;

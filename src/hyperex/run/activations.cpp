@@ -71,8 +71,8 @@ nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
       driven_points <= std::size_t(simulate::kFewPoints)
           ? "so few points leave most of an activation to the prior: a means of moving the face, "
             "not a measurement of muscles"
-          : "sums over muscles that points on the skin can hardly tell apart; sigma knows of the "
-            "points' errors and the prior, not of wrong lines or tissue";
+          : "sums over muscles that points on the skin can hardly distinguish; sigma includes the "
+            "points' errors and the prior, not wrong lines or tissue";
   return json;
 }
 

@@ -16,7 +16,7 @@ namespace hyperex::run {
 render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,
                              const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
                              const std::string& title, const std::string& note) {
-  // A symmetric face is all of one colour: not of its noise, nor of what its mesh makes of it.
+  // A smaller range of colours would show noise and errors of the mesh on a symmetric face.
   constexpr double least_top_mm = 5;
   // A few vertices at a torn or cut place must not set the scale.
   constexpr double shown_share = 0.99;

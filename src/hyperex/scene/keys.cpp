@@ -68,13 +68,13 @@ const std::vector<Key>& keys() {
   return all;
 }
 
-bool speaks_of_displacement(const std::string& key) {
+bool mentions_displacement(const std::string& key) {
   return key.starts_with("region.") ||
          (key.starts_with("support.") && !key.starts_with("support.jaw_points"));
 }
 
 bool decides_the_drive(const std::string& key) {
-  return key == "drive.by" || speaks_of_displacement(key);
+  return key == "drive.by" || mentions_displacement(key);
 }
 
 const Key* find_key(const std::string& name) {

@@ -77,10 +77,10 @@ std::string in_place_of(const std::string& name);
 /// Whether a key has a meaning only where displacements drive the face. These are the keys of
 /// [region], and of [support] except jaw_points. (Muscles fit the jaw to all points and need no
 /// jaw_points.)
-bool speaks_of_displacement(const std::string& key);
+bool mentions_displacement(const std::string& key);
 
 /// Whether a key, if it is given, decides what drives the face: drive.by, and the keys of
-/// speaks_of_displacement(). Where a scene has variants and none of these keys is given, in the
+/// mentions_displacement(). Where a scene has variants and none of these keys is given, in the
 /// scene or in a variant, muscles drive. (A FaceSession also chooses muscles where there are no
 /// variants: session/drive_choice.hpp.)
 bool decides_the_drive(const std::string& key);

@@ -125,9 +125,10 @@ struct MotionOptions {
              "The recording of a camera, colour and depth: a folder in TUM's layout, a video or "
              ".oni file. The face in it is tracked, as by hyperex track.",
              {.folder_too = true});
-    v.option(HX_MEMBER(mirrored),
-             "The pictures of motion.recording show the world as a mirror does (many selfie videos "
-             "do) and are turned back; a video does not tell, and left and right depend on it.");
+    v.option(
+        HX_MEMBER(mirrored),
+        "The pictures of motion.recording show the world as a mirror does (many selfie videos "
+        "do) and are turned back. A video does not state this, and left and right depend on it.");
     v.option(HX_MEMBER(openface),
              "Action-unit intensities over time: a CSV file of OpenFace 2. They move the face "
              "model, whose points are then the recording.");

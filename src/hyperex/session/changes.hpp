@@ -22,7 +22,7 @@ class Value {
   /// A value written as JSON: lists, and rows such as [{"name": "cheek_R", "young_factor": 5}].
   static Value from_json(std::string json);
 
-  /// As JSON.
+  /// The value as JSON.
   const std::string& json() const { return json_; }
 
  private:

@@ -33,7 +33,7 @@ std::string unknown_landmark(const InputProblem& problem) {
   return name;
 }
 
-/// Those of `names` that are no points of the recording or no landmarks of the scan.
+/// Problems for those `names` that are not points of the recording or not landmarks of the scan.
 std::vector<InputProblem> unknown_names(const scene::Scene& scene, const Inputs& in,
                                         const std::vector<std::string>& names, const char* key,
                                         bool in_motion) {

@@ -72,9 +72,9 @@ bool is_further(const motion::Motion& motion, const std::vector<std::string>& dr
   };
   const std::string other = face::other_name(name);
   if (has(driven, name) || has(driven, other)) return false;
-  const bool told_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
+  const bool listed_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
   const auto number = number_of(name);
-  return !told_as_other && !(number && is_of_a_part(*number));
+  return !listed_as_other && !(number && is_of_a_part(*number));
 }
 
 /// "cheek_L (5.1 mm)", "glabella (3.0 mm)" and "and 9 more": first those away from the lips, where

@@ -110,13 +110,13 @@ class FaceSession {
   FaceResult variant(const std::string& name, const Changes& changes,
                      const simulate::RunCallbacks& callbacks = {});
 
-  /// Those of the face that run() returns; run first where it is not up to date.
+  /// Results of the face that run() returns; calls run() first if needed.
   const simulate::Performance& performance();
   const metrics::SymmetryMeasures& measures();
 
   /// What was assumed, repaired and found so far, including warnings; docs/notes.md lists the ids.
   std::vector<Note> notes() const;
-  /// Those of severity warning.
+  /// The notes of severity warning.
   std::vector<Note> warnings() const;
 
   // ----- stage by stage
@@ -136,8 +136,9 @@ class FaceSession {
 
   /// Whether all error bands are known and given landmarks are checked.
   bool certainty_known() const;
-  /// Computes those that are missing; call it once all is up to date. Throws NumericalError, and
-  /// simulate::Cancelled after `cancelled` returned true; parts computed before are kept.
+  /// Computes the missing error bands and checks given landmarks. Call it once all is up to date.
+  /// Throws NumericalError, and simulate::Cancelled after `cancelled` returned true; parts computed
+  /// before are kept.
   void find_certainty(const std::function<bool()>& cancelled = {});
 
   /// The skin's displacement (|skin| x 3, m) in static equilibrium at `time_s`: a view that follows
@@ -169,7 +170,7 @@ class FaceSession {
   simulate::Simulator simulator() const;
   /// Where base's tissue differs from place to place; else null.
   const tissue::TissueField* field() const;
-  /// Of base, once it was run.
+  /// Results of base, once it was run.
   const simulate::SimulationResult& simulation() const;
   const metrics::SymmetryMeasures& symmetry() const;
   const metrics::PeakTissue& tissue_at_peak() const;  ///< strain and stress of base

@@ -25,7 +25,7 @@ struct FaceSession::Impl {
   SceneSource source;  // what set() and variant() change
   scene::Scene scene;
 
-  // Of the inputs and the mesh.
+  // The inputs, the mesh and what is computed from them.
   Inputs inputs;
   std::optional<io::Scan> whole_scan;  // none: inputs.scan was not thinned
   PreparedFace face;
@@ -35,7 +35,7 @@ struct FaceSession::Impl {
   std::optional<LandmarkSearch> search;  // none: not begun, or over
   bool searched = false;
 
-  // Of base.
+  // Base: its simulator and its results.
   DriveChoice drive;
   std::optional<tissue::TissueField> field;
   std::optional<simulate::Simulator> simulator;
@@ -49,7 +49,7 @@ struct FaceSession::Impl {
   std::optional<MirroredTwin> twin;                             // of base as it is; none: not run
   std::optional<simulate::Simulator> next_variant;              // of prepare_variant()
 
-  // Of the variants: their results, and what each is computed from.
+  // The variants: their results and their simulators.
   std::vector<VariantRun> runs;
   struct VariantState {
     std::optional<simulate::Simulator> simulator;  // holds base's forces; none: not made

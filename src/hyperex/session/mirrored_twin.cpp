@@ -31,8 +31,8 @@ int counterpart_of(const simulate::AlignedMotion& motion, const metrics::Midsagi
   return apart <= counterpart_within_m ? static_cast<int>(nearest) : -1;
 }
 
-/// Names of the points that the simulation listens to.
-std::vector<std::string> heard_points(const scene::Scene& scene, const Inputs& inputs) {
+/// Names of the points that the simulation uses: driven points and points of the jaw.
+std::vector<std::string> used_points(const scene::Scene& scene, const Inputs& inputs) {
   std::vector<std::string> names = inputs.driven;
   const auto& jaw = scene.support.jaw_points;
   names.insert(names.end(), jaw.begin(), jaw.end());
@@ -133,7 +133,7 @@ MirroredTwin simulate_twin(const scene::Scene& scene, const Inputs& inputs,
     none.why_not = "a region of the skin follows the recording itself";
     return none;
   }
-  auto motion = mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not);
+  auto motion = mirrored_motion(inputs.motion, plane, used_points(scene, inputs), none.why_not);
   if (!motion) return none;
   auto simulator = std::make_shared<simulate::Simulator>(run);
   simulator->set_motion(std::move(*motion));
@@ -148,7 +148,7 @@ MirroredTwin simulate_variants_twin(const scene::Scene& scene, const Inputs& inp
   // A variant may use options for which there is no twin.
   MirroredTwin none;
   if (!of_base.simulator || scene.region.measured != simulate::Measured::none ||
-      !mirrored_motion(inputs.motion, plane, heard_points(scene, inputs), none.why_not))
+      !mirrored_motion(inputs.motion, plane, used_points(scene, inputs), none.why_not))
     return simulate_twin(scene, inputs, field, plane, run, cancelled);
   auto simulator = std::make_shared<simulate::Simulator>(*of_base.simulator);
   simulator->hold_load();

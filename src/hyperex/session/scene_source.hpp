@@ -22,15 +22,15 @@ class SceneSource {
 
   const scene::Scene& scene() const { return scene_; }
 
-  /// Another scene in its place.
+  /// Replaces the scene.
   void replace(scene::Scene scene);
 
-  /// With another value of a key of base.
+  /// A copy in which a key of base has another value.
   SceneSource with_value(const std::string& key, const Value& value) const;
-  /// With a variant of this name that has these changes; it replaces one of that name.
+  /// A copy with a variant of this name and these changes. It replaces a variant of that name.
   SceneSource with_variant(const std::string& name, const Changes& changes) const;
-  /// With one more change of the variant `name`, which is added where there is none. `key` may name
-  /// a part of a list: "tissue.region[0].young_factor".
+  /// A copy with one more change of the variant `name`, which is added if it does not exist. `key`
+  /// may name a part of a list: "tissue.region[0].young_factor".
   SceneSource with_change(const std::string& name, const std::string& key,
                           const Value& value) const;
 

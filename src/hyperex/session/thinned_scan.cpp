@@ -25,8 +25,8 @@ bool is_textured(const io::Scan& scan) {
   return scan.corner_uv.rows() > 0 && scan.texture.has_value();
 }
 
-/// Of the texture coordinates of a vertex, those nearest to `old`, so that a moved corner of a
-/// triangle stays in its part of the texture.
+/// Finds those texture coordinates of a vertex that are nearest to `old`, so that a moved corner of
+/// a triangle stays in its part of the texture.
 class CornerUv {
  public:
   explicit CornerUv(const report::SkinView& view) : view_(view) {

@@ -34,7 +34,7 @@ SidedName sided(std::string name) {
   return {name, ""};
 }
 
-/// Of names without sides.
+/// `part` itself if it is known, else the nearest of `parts`: all are names without sides.
 std::string nearest_part(const std::string& part, const std::vector<std::string>& parts) {
   const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
   return known ? part : scene::nearest(part, parts);

@@ -58,7 +58,7 @@ constexpr auto words_of(Mandible) {
                     Word{"free", Mandible::free}};
 }
 
-/// Of elastic foundations: stiffness per area.
+/// Unit and bounds of an elastic foundation's stiffness per area.
 inline constexpr OptionDetails kFoundation{.unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}};
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
@@ -291,11 +291,13 @@ struct MuscleOptions {
   /// `widening` times as wide.
   double widening = 2.3, half = 0.62;
 
-  /// 1 sigma: of the error of a point's displacement where few points are driven (up to kFewPoints)
-  /// and where many are; prior of an activation; of rings; below rest, of muscles that may relax;
-  /// of the jaw's slide.
-  double few_sigma_m = 0.0008, many_sigma_m = 0.0016;
-  double activation_sigma = 0.29, ring_sigma = 0.15, tone_sigma = 0.16, slide_sigma_m = 0.0045;
+  /// Error (1 sigma) of a point's displacement where few points are driven (kFewPoints).
+  double few_sigma_m = 0.0008;
+  double many_sigma_m = 0.0016;    ///< the same where more points are driven
+  double activation_sigma = 0.29;  ///< prior 1 sigma of an activation
+  double ring_sigma = 0.15;        ///< the same for muscles that act as rings
+  double tone_sigma = 0.16;        ///< the same below rest, for muscles that may relax
+  double slide_sigma_m = 0.0045;   ///< prior 1 sigma of the jaw's slide
   /// Prior correlation of a muscle's activation with that of its counterpart.
   double side_correlation = 0.3;
   /// Radius of the patches of skin over which the residual at many points is spread; at few points
@@ -378,7 +380,7 @@ struct TissueValues {
   /// Volume at rest over that of the mesh, per tetrahedron; empty: 1.
   std::vector<double> volume_ratio = {};
 
-  /// Of `tets` tetrahedra. Values are allowed ones (tissue::is_allowed): asserted.
+  /// The material of `tets` tetrahedra. Asserts that the values are allowed (tissue::is_allowed).
   fem::Material material(std::size_t tets, fem::ViscousForm viscous_form) const;
   bool operator==(const TissueValues&) const = default;
 };
@@ -397,11 +399,11 @@ struct SolverOptions {
   double newmark_beta = 0.25;  ///< 2 beta >= gamma
   double newmark_gamma = 0.5;
   bool verify = false;  ///< run the full model too and measure the reduced one's error
-  /// Of finite strain: the length of a step (0: that of a frame), halved where it does not
-  /// converge; the error of the iterations in a step over the greatest displacement; whether the
-  /// matrix is factored anew in each of them.
-  double finite_step_s = 0, finite_tolerance = 1e-3;
-  bool full_newton = false;
+  /// At finite strain: length of a step, halved where it does not converge. 0: that of a frame.
+  double finite_step_s = 0;
+  /// At finite strain: error of a step's iterations over the greatest displacement.
+  double finite_tolerance = 1e-3;
+  bool full_newton = false;  ///< at finite strain: factor the matrix in each iteration
   bool operator==(const SolverOptions&) const = default;
 
   static constexpr const char* about = "How the equations of motion are solved.";

@@ -15,7 +15,7 @@ constexpr const char* kTableBegins = "case,state,";
 /// The measures in a run's summary. A name is the path in the summary, joined by '.', and includes
 /// the unit: {"symmetry.commissure.excursion_mm.L", "3.8"}. True and false are 1 and 0; an unknown
 /// value is empty. The most important measures come first, then the others in the summary's order.
-/// Of the pairs of points only the excursions are included, of the variants only their table.
+/// For pairs of points only the excursions are included; for variants only their table.
 std::vector<std::pair<std::string, std::string>> measures_in(const nlohmann::ordered_json& summary);
 
 /// Writes OUT/study.csv. Each case has one row: its name and state, the changed keys, the measures

@@ -122,7 +122,7 @@ void add_inversion(const scene::Scene& scene, const Place& place, double value_m
   errors.add(ErrorPart::inversion, std::pow(share * value_mm, 2));
 }
 
-/// What the figures of other faces say of the errors of the face's own.
+/// Estimates the errors of a face's figures from those of perturbed faces.
 class OtherFaces {
  public:
   OtherFaces(std::vector<Place> places, const FaceExcursions& own) : places_(std::move(places)) {

@@ -12,9 +12,10 @@
 
 namespace hyperex::uncertainty {
 
-/// Of a change where forces drive, 1 sigma, relative. By weaker muscles: what twins whose face is
-/// known exactly still lack with seven points, 9 to 16 % (docs/twins.md). By other tissue: what is
-/// found too small of a stiff cheek, a fifth (docs/uncertainty.md).
+/// Relative error (1 sigma) of a change where forces drive. For changed muscles: with seven points,
+/// twins whose face is known exactly still have errors of 9 to 16 % (docs/twins.md). For changed
+/// tissue or support: the effect of a stiff cheek is found too small by a fifth
+/// (docs/uncertainty.md).
 inline constexpr double kInversion = 0.15, kInversionOfTissue = 0.2;
 
 /// Whether the face is also run by the other law. Finite strain takes as long as all else.

@@ -12,7 +12,7 @@ namespace hyperex::uncertainty {
 // How wrong a face may be, 1 sigma: the line of each muscle along the skin, the prior sigma of each
 // activation (a factor), and the tissue's stiffness relative to its support (a factor).
 inline constexpr double kMuscle_m = 2e-3, kReadiness = 1.5, kStiffness = 1.65;
-/// Of other meshes, relative to the face's.
+/// Element sizes of other meshes, relative to that of the face's own.
 inline constexpr std::array kElementSizes = {0.92, 1.1, 1.2};
 inline constexpr int kLandmarkDraws = 3, kMuscleDraws = 4;
 

@@ -48,7 +48,7 @@ std::vector<ScanMeasure> all_scan_measures() {
   return all;
 }
 
-/// Of each visit the scans that it has.
+/// The scans of a visit; empty where the visit has none.
 struct VisitScans {
   std::optional<MeasuredScan> rest, peak;
 };

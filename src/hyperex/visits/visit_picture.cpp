@@ -27,8 +27,8 @@ struct Displacements {
   Points centres, values;
 };
 
-/// Half the difference between a point at rest and the mirror image of its counterpart, beside that
-/// of the whole face: what the person's face has that the average face has not.
+/// Half the difference between a point at rest and the mirror image of its counterpart about the
+/// face's own midsagittal plane. The average face, which is symmetric, lacks this asymmetry.
 Vec3 own_asymmetry(const MeasuredFace& face, const std::string& name, double middle_x) {
   const std::string other = face::mirrored_landmark(name);
   if (!face.rest.contains(other)) return Vec3::Zero();

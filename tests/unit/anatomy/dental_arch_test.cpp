@@ -60,7 +60,7 @@ TEST(DentalArches, HaveFourteenClosedCrownsEachAndAGum) {
 
 TEST(DentalArches, CrownsAreAsLongAndAsWideAsPublished) {
   const Teeth teeth = dental_arches();
-  // Of upright teeth in front, seen from in front: 3 mm of root are hidden in the gum.
+  // Sizes of upright front teeth seen from the front. 3 mm of root are hidden in the gum.
   const auto upper = teeth_of(teeth.upper);
   const Points& central = upper.at(21);
   EXPECT_NEAR(central.col(0).maxCoeff() - central.col(0).minCoeff(), 0.0085, 4e-4);

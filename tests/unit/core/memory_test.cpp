@@ -35,7 +35,7 @@ TEST(FreedMemory, IsGivenBackToTheSystem) {
 #if defined(HYPEREX_OTHER_ALLOCATOR)
   GTEST_SKIP() << "another allocator than that of the GNU C library";
 #else
-  // As the program has it, which keeps what it frees.
+  // The program's own thresholds, with which the allocator keeps what is freed.
   mallopt(M_MMAP_THRESHOLD, 1 << 30);
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
   const double before = resident_mib();

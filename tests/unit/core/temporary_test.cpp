@@ -51,7 +51,8 @@ TEST_F(Temporary, OnlyWhatAGoneProcessLeftOfThisTargetIsRemoved) {
 }
 
 TEST_F(Temporary, WhatALivingProcessUsesStays) {
-  // Of this very program, another one, and one whose number means nothing here but whose lock does.
+  // Files of a process of this program, of another program, and of a process that cannot be found
+  // by its number but holds a lock.
   const pid_t same = ::fork();
   if (same == 0)
     for (;;) ::pause();

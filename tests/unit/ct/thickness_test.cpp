@@ -40,7 +40,7 @@ Errors errors_of(std::vector<double> absolute_mm) {
           absolute_mm[std::size_t(0.95 * double(absolute_mm.size() - 1))], absolute_mm.size()};
 }
 
-/// Of both distances, at the place of the true skin that is nearest to each vertex.
+/// Errors of both distances, at the place of the true skin that is nearest to each vertex.
 std::pair<Errors, Errors> errors_of(const CtFace& face) {
   std::vector<double> shortest, along;
   for (Eigen::Index v = 0; v < face.skin.points.rows(); ++v) {

@@ -56,7 +56,7 @@ struct Tally {
   }
 };
 
-/// Of ln(cheek_L / cheek_R) and of the gain of zygomatic_R.
+/// Tallies for ln(cheek_L / cheek_R) and for the gain of zygomatic_R.
 std::array<Tally, 2> tally(const std::vector<std::string>& expressions, int patients,
                            bool finite = false) {
   const auto points = inner_points();
@@ -107,7 +107,7 @@ TEST(Coverage, OfStiffnessUnderGravity) {
     };
     const std::array<Vec3, 2> turned{drawn(), drawn()};
     auto seen = observations_of(patient, {"smile"}, points);
-    // Of tissue and support alike, beside what the patient's tissue is relative to the support.
+    // This factor is of tissue and support alike. The patient's own is relative to the support.
     seen.push_back(
         lying_observation_of(patient, kpa / (scenes_kpa * patient.young_factor), turned, points));
     Posterior posterior(face, seen, {});
@@ -126,7 +126,7 @@ TEST(Coverage, OfAnotherLaw) {
   const auto [ratio, gain] = tally({"smile", "pucker"}, patients, true);
   ratio.print("finite strain: ln of the ratio of the cheeks", patients);
   gain.print("finite strain: gain of zygomatic_R", patients);
-  // Of a few all must be inside.
+  // With few patients all must be inside.
   for (const Tally& one : {ratio, gain})
     EXPECT_GE(one.inside, patients < 10 ? patients : 0.9 * patients - 1);
 }

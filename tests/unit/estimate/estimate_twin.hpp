@@ -52,7 +52,7 @@ Observation lying_observation_of(const Patient& patient, double young_factor,
                                  const std::array<Vec3, 2>& turned,
                                  const std::vector<std::string>& points);
 
-/// What the program knows of the face.
+/// The face model that the program uses.
 FaceModel model_of(const Question& question, const std::vector<std::string>& points);
 /// All 68 but those of the outline that are not of the chin.
 std::vector<std::string> inner_points();

@@ -18,7 +18,7 @@ class BlasKernels : public testing::Test {
  protected:
   void SetUp() override {
     if (std::getenv("OPENBLAS_CORETYPE")) GTEST_SKIP() << "the user has chosen";
-    // As OpenBLAS chooses for a processor that it does not know.
+    // The kernels that OpenBLAS chooses for a processor that it does not know.
     if (!take_blas_kernels("Prescott") || std::string(openblas_get_corename()) != "Prescott")
       GTEST_SKIP() << "this OpenBLAS has no other kernels";
   }

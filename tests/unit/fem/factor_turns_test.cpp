@@ -23,7 +23,7 @@ struct Bar {
   test::BoxMesh box = test::box_mesh({4, 3, 2}, kSize, 0.1);
   Assembler assembler{box.nodes, box.tets, ElementKind::tet4_star};
 
-  /// Of the linear map x -> a x.
+  /// Displacement of all unknowns by the linear map x -> a x.
   VectorXd mapped(const Eigen::Matrix3d& a) const {
     VectorXd d(box.nodes.size());
     for (Eigen::Index n = 0; n < box.nodes.rows(); ++n) {

@@ -215,7 +215,7 @@ TEST(ReducedModel, AddsResponses) {
   EXPECT_GT(test::true_error(a, full), 0.01) << "both parts matter";
   EXPECT_NEAR(sum.greatest_displacement_m, model.run(whole.drive, how).greatest_displacement_m,
               2e-4 * sum.greatest_displacement_m);
-  // Of opposite sums the error is not small beside what is left.
+  // Where two parts nearly cancel, the error is not small relative to their sum.
   const Response little = sum_of(a, a, -0.999);
   EXPECT_GT(little.estimated_error, 100 * a.estimated_error);
   EXPECT_NEAR(little.greatest_displacement_m, 0.001 * a.greatest_displacement_m,

@@ -25,7 +25,7 @@ TEST_F(LandmarkFile, RoundTripInEachUnit) {
   }
 }
 
-/// What 3D Slicer's markups schema 1.0.3 asks of a point list, and its reader besides.
+/// Requirements of 3D Slicer's markups schema 1.0.3, and of its reader, on a list of points.
 void expect_slicer_schema(const nlohmann::json& root) {
   ASSERT_TRUE(root.at("@schema").is_string());
   EXPECT_TRUE(std::regex_match(root["@schema"].get<std::string>(),

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What io/toml.hpp mends in toml++: characters beyond ASCII where it asks whether they are spaces.
+// The fault of toml++ that io/toml.hpp corrects: its test for spaces fails beyond ASCII.
 #include "hyperex/io/toml.hpp"
 
 #include <gtest/gtest.h>

@@ -39,7 +39,7 @@ std::vector<UncertainPose> uncertain(int component, double sigma) {
   return poses;
 }
 
-/// Of the difference of both sides where the filter leaves this share of jitter.
+/// Pose floor of the difference of both sides where the filter leaves this share of jitter.
 double pose_floor_mm(const motion::Motion& motion, const std::vector<UncertainPose>& poses,
                      double jitter_share = 1) {
   Excursions all;

@@ -222,7 +222,7 @@ TEST(ExpressivePose, APriorOfTwoSidesCouplesThemByThreeTenths) {
   EXPECT_LT(off(0, 2, right, chin, 0.3 + 0.7 * std::sqrt(0.5)), rounding);
 }
 
-/// Of the mode that lifts the corners most, on the left alone.
+/// The expression is the mode that lifts the corners most, on the left alone.
 TEST(ExpressivePose, OneSideThatSmilesIsHardlyTakenForAMotionOfTheHead) {
   const LandmarkMotion& table = landmark_motion();
   const auto corner = std::ranges::find(table.names, "ibug68_54") - table.names.begin();

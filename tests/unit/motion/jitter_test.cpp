@@ -26,7 +26,7 @@ Motion smiles(double step_s = 1.0 / 30, int samples = 120) {
   });
 }
 
-/// As with a depth camera, the depth is noisier than the directions in the picture.
+/// Noise as of a depth camera: the depth is noisier than the directions in the picture.
 void add_noise(Motion& motion, double jitter_m, unsigned seed) {
   std::mt19937 generator(seed);
   std::normal_distribution<double> noise(0, jitter_m);

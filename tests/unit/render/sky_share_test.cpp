@@ -29,7 +29,7 @@ float at(const TriMesh& mesh, const Vec3& place, double far_m) {
 TEST(SkyShare, IsOneOnAPlaneAndHalfInACorner) {
   const TriMesh plane = flat_square(1, false);
   EXPECT_EQ(sky_share(plane).minCoeff(), 1);
-  // Of the light from all sides, weighted by the cosine, a wall takes one half where it stands.
+  // At its foot a wall blocks one half of the light from all sides, weighted by the cosine.
   EXPECT_NEAR(at(flat_square(10, true), {1e-3, 0, 0}, 100), 0.5, 0.05);
 }
 

@@ -57,7 +57,7 @@ TEST(FaceBacking, APocketIsNoDeeperThanTheScan) {
   ASSERT_GE(backing.openings.size(), 1u);
   for (const Opening& opening : backing.openings)
     for (const double back_m : {0.0, 0.008}) {
-      // As the lips go in a smile.
+      // A smile moves the lips back; other openings stay.
       if (back_m > 0 && !opening.mouth) continue;
       Points points = mask.points;
       for (const int v : opening.loop) points(v, 2) -= back_m;

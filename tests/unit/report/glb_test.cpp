@@ -250,7 +250,7 @@ TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
     const PointsF points = rows_of<float, 3>(model, primitive.attributes.at("POSITION"));
     const PointsF normals = rows_of<float, 3>(model, primitive.attributes.at("NORMAL"));
     EXPECT_LT((points - float(eyeballs[side].radius_m) * normals).norm(), 1e-5);
-    // Of its colours the pupil's are darker than those of the white, which the lids shade.
+    // The pupil's colours are darker than those of the white, which the lids shade.
     const auto colours = rows_of<std::uint16_t, 4>(model, primitive.attributes.at("COLOR_0"));
     ASSERT_EQ(colours.rows(), points.rows());
     const Eigen::VectorXf ahead = normals * eyeballs[side].gaze.cast<float>();

@@ -98,7 +98,7 @@ class KeptRecording : public testing::Test {
   void write(const std::string& name, const std::string& text) const {
     std::ofstream(folder / name) << text;
   }
-  /// Whether the recording is tracked when it is asked for.
+  /// Whether recorded_face() tracks the recording.
   bool tracks() {
     bool tracked = false;
     const RecordedFace recorded = recorded_face(scene, [&] {

@@ -78,7 +78,7 @@ class PressedBlock {
     return contact.correct({skin, at, lowered});
   }
 
-  /// Displacement of all unknowns under what a correction asks for.
+  /// Displacement of all unknowns under a correction's forces.
   Eigen::VectorXd moved(const MouthContact& contact, const Eigen::VectorXd& force) {
     Eigen::VectorXd all = Eigen::VectorXd::Zero(stiffness_.cols());
     for (std::size_t n = 0; n < contact.nodes().size(); ++n)

@@ -52,7 +52,7 @@ class LiveFace : public testing::Test {
   void take(const std::string& message, bool binary, bool draws) {
     const std::lock_guard lock(mutex_);
     if (!binary) {
-      told_.push_back(json::parse(message));
+      messages_.push_back(json::parse(message));
       return;
     }
     std::uint32_t length = 0;
@@ -66,7 +66,7 @@ class LiveFace : public testing::Test {
   }
   json last(const std::string& event) {
     const std::lock_guard lock(mutex_);
-    for (auto one = told_.rbegin(); one != told_.rend(); ++one)
+    for (auto one = messages_.rbegin(); one != messages_.rend(); ++one)
       if ((*one)["event"] == event) return *one;
     return nullptr;
   }
@@ -74,7 +74,7 @@ class LiveFace : public testing::Test {
   const TestFolder folder_;
   OpenFace face_;
   std::mutex mutex_;
-  std::vector<json> told_;
+  std::vector<json> messages_;
   std::vector<Shape> shapes_;
   std::unique_ptr<Live> live_;
 };

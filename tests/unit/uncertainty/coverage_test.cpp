@@ -105,7 +105,7 @@ void hold(motion::Motion& motion) {
   }
 }
 
-/// As a camera sees it: the head turns by 6 degrees and moves.
+/// The motion as a camera records it: the head turns by 6 degrees and moves.
 motion::Motion seen(motion::Motion motion, std::mt19937& random) {
   std::normal_distribution<double> normal;
   hold(motion);

@@ -108,7 +108,7 @@ const withRoom = (_plot: uPlot, least: number | null, most: number | null): Rang
 export interface Size {
   widthPx: number;
   heightPx: number;
-  /** Of letters and lines; 1 on the page. */
+  /** Scale of letters and lines; 1 on the page. */
   scale: number;
 }
 

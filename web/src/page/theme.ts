@@ -10,9 +10,9 @@ export interface Theme {
   inkSoft: string;
   line: string;
   card: string;
-  /** Of stretches of time that are marked. */
+  /** Colour of marked intervals of time. */
   shading: string;
-  /** Of curves, in their order. */
+  /** Colours of curves, in their order. */
   palette: string[];
 }
 

@@ -193,7 +193,7 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
   ];
 }
 
-/** Of the figures shown. */
+/** The difference between the figures as they are shown, rounded. */
 export const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
 
 /** "8.1 mm apart": the figures do not show which side is the healthy one. */

@@ -49,7 +49,7 @@ export interface MuscleGroup {
   name: string;
   left: number[];
   right: number[];
-  /** Of the activation where the group acts most. */
+  /** 1 sigma of the activation where the group acts most. */
   sigmaLeft: number;
   sigmaRight: number;
 }
@@ -67,7 +67,7 @@ export interface Opening {
   loop: Int32Array;
   /** At rest: the edge, the rings behind it, and a point. */
   rest: Float32Array;
-  /** Of each ring behind the edge, and of the point: shares of the motion of edge, its middle and the jaw. */
+  /** For each ring behind the edge, and for the point: shares of the motion of edge, its middle and the jaw. */
   rings: [number, number, number][];
   /** Per vertex of the loop: its share of the jaw's motion. */
   jaw: Float32Array;
@@ -106,7 +106,7 @@ export interface Replay {
   openings: Opening[];
   /** `light`: a byte for each vertex of the model. */
   eyeballs: { centre: Vec3; gaze: Vec3; radiusM: number; light: Uint8Array }[];
-  /** Of radius 1, looking along +z; three bytes of colour a vertex. */
+  /** An eyeball of radius 1 with its gaze along +z; three bytes of colour a vertex. */
   eyeModel: { points: Float32Array; triangles: Uint32Array; colours: Uint8Array } | null;
   /** At rest. */
   teeth: {

@@ -4,7 +4,7 @@
 import { Undoing, type Undo } from '../page/listeners';
 
 export interface Key {
-  /** As in the list: "1 to 9". */
+  /** The text in the list of keys: "1 to 9". */
   shown: string;
   does: string;
   /** Whether the key press matches, as `KeyboardEvent.key` or a test of the event. */

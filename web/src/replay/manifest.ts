@@ -34,7 +34,7 @@ export interface SymmetryCurve {
   noise?: (number | null)[];
   /** The part of `noise` that is due to the mesh; [] where unknown. */
   mesh_noise?: (number | null)[];
-  /** Of the points: standard deviation of a coordinate; 0 for an exact motion. */
+  /** Standard deviation of a point's coordinate; 0 for an exact motion. */
   jitter_mm?: number;
 }
 
@@ -67,9 +67,9 @@ export interface VariantData {
   tissue: SkinMapData[];
   /** Activations of the groups of the scene's own muscles; [] where unknown. */
   muscles?: { left: number[]; right: number[] }[];
-  /** As motion.jaw. */
+  /** See motion.jaw. */
   jaw?: Stretch;
-  /** As motion.upper_teeth. */
+  /** See motion.upper_teeth. */
   upper_teeth?: number[] | null;
 }
 
@@ -123,7 +123,7 @@ export interface Manifest {
     loop: Stretch;
     middle: [number, number, number];
     points: ModeData;
-    /** Of each ring behind the edge, and of the point: shares of the motion of the edge's vertex before it, of the
+    /** For each ring behind the edge, and for the point: shares of the motion of the edge's vertex before it, of the
      *  edge's middle, and of the jaw. */
     rings: [number, number, number][];
     /** Per vertex of the loop: its share of the jaw's motion; the point takes a half. */
@@ -132,7 +132,7 @@ export interface Manifest {
     colours: Stretch;
   }[];
   eyeballs: { centre: [number, number, number]; gaze: [number, number, number]; radius_m: number; light: Stretch }[];
-  /** Of radius 1, looking along +z; three bytes of colour a vertex. Where there are eyeballs. */
+  /** An eyeball of radius 1 with its gaze along +z; three bytes of colour a vertex. Where there are eyeballs. */
   eye_model?: { middle: [number, number, number]; points: ModeData; triangles: Stretch; colours: Stretch };
   /** Teeth, gums and tongue at rest: points are middle + step_m * values. */
   teeth?: {

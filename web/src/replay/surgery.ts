@@ -7,7 +7,7 @@ import { fixed, number } from '../page/format';
 /** Displacements along the axes of the face: to the subject's left, up, forward. */
 export interface SoftTissueMove {
   landmark: string;
-  /** Of the face at rest, by surgery. */
+  /** Displacement of the face at rest by surgery. */
   at_rest_mm: Vec3;
   /** From the face at rest, at the peak of base. */
   expression_before_mm: Vec3;

@@ -8,7 +8,7 @@ import type { Key } from './keys';
 import type { Playback } from './playback';
 import type { Shown } from './shown';
 
-/** Of the variants shown, else of all, the one with the greatest distance from base; null: all are equal to it. */
+/** The variant that differs most from base, among those shown or else among all; null: none differs. */
 function mostDifferent({ faces }: Replay, { visible }: Shown): Face | null {
   const differing = faces.filter(({ maxDifferenceMm }) => maxDifferenceMm >= sameMm);
   const seen = differing.filter((face) => visible.includes(faces.indexOf(face)));

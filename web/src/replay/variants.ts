@@ -19,7 +19,7 @@ export interface Variants {
 const isVariants = (v: unknown): v is Variants =>
   typeof v === 'object' && v !== null && Array.isArray((v as Variants).table);
 
-/** Of base and its variants, as `Replay.faces`; null where the run has none. */
+/** The table of base and its variants, in the order of `Replay.faces`; null where the run has no variants. */
 export function variantsOf(replay: Replay): Variants | null {
   const { variants } = replay.summary;
   return isVariants(variants) && variants.table.length > 1 ? variants : null;

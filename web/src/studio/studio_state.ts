@@ -39,7 +39,7 @@ export class StudioState {
   /** The base itself may be changed, not only another face beside it. */
   changeBase = false;
 
-  /** Of two the right one. */
+  /** The face that changes apply to: the right one where two are shown. */
   get edited(): number {
     const { visible } = this.shown;
     return visible[visible.length - 1];

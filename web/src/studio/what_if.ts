@@ -80,7 +80,8 @@ export class WhatIf {
     ];
   }
 
-  /** Of base: beside other changes, of the muscles for example, those of the preset would not hold. */
+  /** Each makes a variant of base: together with other changes, of muscles for example, a preset's values would not be
+   *  valid. */
   private presetChoices(): Choice[] {
     return this.presets.map(({ name, summary, source, assumed }) => {
       const stem = name.replace(/_[LR]$/, '');

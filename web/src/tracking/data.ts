@@ -10,7 +10,7 @@ export interface Channel {
   name: string;
   facs: string;
   values: (number | null)[];
-  /** Of all numbers there are; 0 where there is none. */
+  /** Range of all values that are not null; 0 where there is none. */
   least: number;
   most: number;
   /** Their frames. */

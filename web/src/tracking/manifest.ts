@@ -11,7 +11,7 @@ export interface Manifest {
   metric: boolean;
   eye_distance_mm: number;
   notes: string[];
-  /** Of the recording; more than N where some frame's time did not rise. */
+  /** Frames of the recording; more than N where the time of some frame did not increase. */
   frames: number;
   valid: number;
   /** The recording's clock at time_s = 0. */

@@ -21,7 +21,7 @@ export function ticksOf(range: Range, most: number): { value: number; text: stri
   });
 }
 
-/** Of all curves, so that both sides and all visits have one scale; null: nothing was measured. */
+/** Ranges of all curves, so that both sides and all visits have one scale; null: nothing was measured. */
 export function rangesOf(curves: VisitCurve[]): { time: Range; mm: Range } | null {
   const measured = curves.flatMap((curve) => curve.time_s.flatMap((time, i) => {
     const values = [curve.right_mm[i], curve.left_mm[i]].filter((value) => value !== null);

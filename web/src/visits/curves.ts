@@ -8,17 +8,17 @@ import { fixed } from '../page/format';
 import type { Manifest } from './manifest';
 import { drawPanel, svg, type Line } from './panel';
 
-/** Of the visits between the first and the last, so that lines differ without colours. */
+/** Dash patterns of the visits between the first and the last, so that lines differ without colours. */
 const dashes = ['7 3', '2 3', '8 3 2 3', '12 4'];
 
-interface Look {
+interface CurveStyle {
   className: string;
   style: string;
   dash: string;
 }
 
 /** The first of several visits is grey; later ones have their side's colour, the later the stronger. */
-function lookOf(visit: number, count: number, side: Side, chosen: number): Look {
+function styleOf(visit: number, count: number, side: Side, chosen: number): CurveStyle {
   if (visit === 0 && count > 1) return { className: 'line first', style: 'stroke: var(--ink-soft)', dash: '' };
   const strength = count > 2 ? Math.round(70 + (30 * (visit - 1)) / (count - 2)) : 100;
   return {
@@ -29,7 +29,7 @@ function lookOf(visit: number, count: number, side: Side, chosen: number): Look 
 }
 
 /** A stretch of the line itself, for the key. */
-function sample({ className, style, dash }: Look): SVGElement {
+function sample({ className, style, dash }: CurveStyle): SVGElement {
   const picture = svg('svg', { viewBox: '0 0 26 8', 'aria-hidden': 'true' });
   picture.append(svg('path', { d: 'M1 4H25', class: className, style, 'stroke-dasharray': dash }));
   return picture;
@@ -64,7 +64,7 @@ export class Curves {
     return figure;
   }
 
-  /** For those who listen: what the lines show. */
+  /** What the lines show, for screen readers. */
   private spoken(side: Side): string {
     const { visits, curves } = this.manifest;
     const most = visits.map(({ label }, i) => {
@@ -80,7 +80,7 @@ export class Curves {
     const order = [...curves].sort((a, b) => Number(a.visit === this.choice.visit) - Number(b.visit === this.choice.visit) || a.visit - b.visit);
     return order.map((curve) => {
       const { label, recordings } = visits[curve.visit];
-      const look = lookOf(curve.visit, visits.length, side, this.choice.visit);
+      const look = styleOf(curve.visit, visits.length, side, this.choice.visit);
       return {
         ...look, className: several.has(curve.visit) ? `${look.className} one-of-several` : look.className,
         timeS: curve.time_s, valuesMm: curve[`${side}_mm`], title: `${label}: ${recordings[curve.recording] ?? ''}`,
@@ -94,7 +94,7 @@ export class Curves {
     for (const [side, picture] of this.pictures) drawPanel(picture, this.lines(side), ranges);
     this.key.replaceChildren(...manifest.visits.map(({ label }, visit) => {
       const item = element('li');
-      const looks = (visit === 0 && manifest.visits.length > 1 ? sides.slice(0, 1) : sides).map((side) => lookOf(visit, manifest.visits.length, side, choice.visit));
+      const looks = (visit === 0 && manifest.visits.length > 1 ? sides.slice(0, 1) : sides).map((side) => styleOf(visit, manifest.visits.length, side, choice.visit));
       item.append(...looks.map(sample), element('span', label));
       return item;
     }));

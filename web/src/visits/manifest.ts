@@ -5,7 +5,7 @@ export interface Visit {
   label: string;
   note: string;
   recordings: string[];
-  /** Of the first recording's own clock. */
+  /** Time of the peak by the first recording's own clock. */
   peak_s: number;
   /** null: not known. */
   jitter_mm: number | null;

@@ -5,7 +5,7 @@ import { ticksOf, type Range } from './axes';
 export interface Line {
   timeS: number[];
   valuesMm: (number | null)[];
-  /** Of the style sheet, and the pattern of dashes. */
+  /** Appearance: a class in the style sheet, a style and a pattern of dashes. */
   className: string;
   style: string;
   dash: string;

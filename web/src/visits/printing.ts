@@ -5,7 +5,7 @@ import { whenPrinting } from '../page/printing';
 /** What the margins leave (scale.css). */
 const heightMm = 273;
 const perMm = 96 / 25.4;
-/** As a share of the style sheet's size. */
+/** Scale relative to the style sheet's size. */
 const [largest, least, step] = [1.22, 0.78, 0.02];
 
 function fits(): boolean {

@@ -17,7 +17,7 @@ struct Lathe {
   std::vector<std::vector<Vec3>> rings;
   Vec3 first = Vec3::Zero(), last = Vec3::Zero();
 
-  /// Closed; its triangles look outwards or all inwards.
+  /// Closed; the normals of its triangles point all outwards or all inwards.
   TriMesh mesh() const;
 };
 

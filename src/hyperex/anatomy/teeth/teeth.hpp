@@ -23,7 +23,7 @@ struct JawTeeth {
 /// (Performance::jaw_now_from_rest).
 struct Teeth {
   JawTeeth upper, lower;
-  /// Moves with the lower row (tongue_in()); nothing touches it. May have no triangles.
+  /// Moves with the lower row (tongue_in()) and takes no part in contact. May have no triangles.
   TriMesh tongue = {};
 };
 

@@ -155,7 +155,7 @@ MouthContact::MouthContact(std::shared_ptr<const LipSurfaces> surfaces,
   compliance_ = 0.5 * (compliance_ + compliance_.transpose()).eval();
 }
 
-/// As near as kWithin_m to touching, where what is carried by nodes_ has moved besides.
+/// Pairs with a gap of at most kWithin_m after nodes_ are also displaced by `moved`.
 std::vector<MouthContact::Pair> MouthContact::pairs_at(const FreeFrame& frame, const Points& lower,
                                                        const Points& upper,
                                                        const Eigen::VectorXd& moved) const {

@@ -11,10 +11,10 @@
 
 namespace hyperex::simulate {
 
-/// The places that may touch one obstacle, with the nodes that carry each.
+/// The places that may come into contact with one obstacle, with the nodes that carry each.
 struct ObstacleSide {
   std::shared_ptr<const ObstaclePlaces> places;
-  std::vector<SkinCarrier> carriers;  ///< per place; empty: it never comes near
+  std::vector<SkinCarrier> carriers;  ///< per place; empty: it is never in contact
 };
 
 /// A face at one moment, without contact.
@@ -22,7 +22,7 @@ struct FreeFrame {
   const PointsF& skin;                  ///< displacement of the whole skin, m
   const std::vector<Points>& at_sides;  ///< displacement of the places of each ObstacleSide, m
   Eigen::Isometry3d jaw_now_from_rest;
-  /// Of the upper teeth, where surgery moved them.
+  /// Pose of the upper teeth after surgery.
   Eigen::Isometry3d upper_teeth_now_from_rest = Eigen::Isometry3d::Identity();
 };
 
@@ -45,16 +45,17 @@ class MouthContact {
   using Compliance = std::function<Eigen::MatrixXd(const std::vector<int>& nodes)>;
 
   /// `lower` and `upper`: carriers of surfaces->lower() and upper(); empty where the lips may pass
-  /// through each other. `held`: carriers of recorded places. These nearly stay where the motion
-  /// without contact has them, since what touches in a recording touched when it was recorded. They
-  /// give way by `give` times the tissue's mean compliance there, since recorded lips may overlap
-  /// too. `compliance` is called once, for nodes().
+  /// through each other. `held`: carriers of recorded places. Springs hold these places where the
+  /// motion without contact has them, since the recording already contains the effect of contact.
+  /// The springs' compliance is `give` times the tissue's mean compliance there, since recorded
+  /// lips may overlap too. `compliance` is called once, for nodes().
   MouthContact(std::shared_ptr<const LipSurfaces> surfaces, std::vector<SkinCarrier> lower,
                std::vector<SkinCarrier> upper, std::vector<ObstacleSide> sides,
                std::vector<SkinCarrier> held, double give, const Compliance& compliance);
 
   struct Correction {
-    /// Of contact and of what holds recorded places: N, three numbers per node of nodes().
+    /// Nodal forces (N) of contact and of the springs that hold recorded places: three numbers per
+    /// node of nodes().
     Eigen::VectorXd force;
     Eigen::VectorXd moved;      ///< displacement of nodes() by these forces, to first order, m
     double before_m = 0;        ///< greatest depth before the correction
@@ -65,8 +66,8 @@ class MouthContact {
   /// May be called from several threads.
   Correction correct(const FreeFrame& frame) const;
 
-  /// Subtracts displacements of nodes() from a frame: from the skin's vertices that may touch and
-  /// from the places of each side.
+  /// Subtracts displacements of nodes() from a frame: from the skin's vertices that may come into
+  /// contact and from the places of each side.
   void take_off(const Eigen::VectorXd& moved, PointsF& skin, std::vector<Points>& at_sides) const;
 
   /// Nodes of the volume on which forces act.
@@ -83,8 +84,8 @@ class MouthContact {
   std::vector<int> nodes_;
   std::vector<SkinCarrier> lower_, upper_;  // by places in nodes_
   std::vector<ObstacleSide> sides_;         // likewise
-  Eigen::MatrixXd compliance_;              // 3 |nodes_| squared, m/N, recorded places being held
-  Eigen::MatrixXd holding_;  // forces that hold them, of forces on the nodes; or no rows
+  Eigen::MatrixXd compliance_;              // 3 |nodes_| squared, m/N, with recorded places held
+  Eigen::MatrixXd holding_;  // maps forces on the nodes to those that hold the places; or no rows
 };
 
 }  // namespace hyperex::simulate

@@ -18,14 +18,14 @@ struct BoneSegment {
   BonePart part;
   BoneCut cut;
   Vec3 turns_about;
-  /// Of the plane of the cut: a place on it, and its normal towards the segment. Zero: no cut.
+  /// Plane of the cut: a place on it, and its normal towards the segment. Zero: no cut.
   Vec3 plane_at = Vec3::Zero(), plane_normal = Vec3::Zero();
   double half_width_m = 0;           ///< greatest distance from the middle; 0: unlimited
   std::optional<Vec3> ends_at = {};  ///< the segment lies in front of this place
 };
 
-/// Of each part with its usual cut. Planes and centres as Osteotomies has them. `bones`: null where
-/// none are known.
+/// The segment of each part with its usual cut. Planes and centres are those of Osteotomies.
+/// `bones`: null where none are known.
 std::vector<BoneSegment> usual_segments(const io::Landmarks& landmarks,
                                         const anatomy::Bones* bones);
 

@@ -98,7 +98,7 @@ class BoneMap {
     return ear_base_.y() + t * (nose_base_.y() - ear_base_.y());
   }
 
-  /// Height of the jaw's lower edge at x; above everything beside the face.
+  /// Height of the jaw's lower edge at x. Beside the face it is 1 m, higher than all tissue.
   double jaw_edge(double x) const {
     for (int k = 0; k < 16; ++k) {
       const Vec3 &a = jaw_line_[k], &b = jaw_line_[k + 1];

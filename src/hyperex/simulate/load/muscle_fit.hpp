@@ -32,9 +32,10 @@ struct FitPriors {
   double ring = 0.2;  ///< muscles that act as rings
   double tone = 0.1;  ///< below rest, of muscles that may relax
   double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
-  Eigen::VectorXd readiness = {};  ///< per muscle: a factor on these three; empty: all 1
-  /// Per muscle: the factor becomes 1 / (1 + yields x opening) of it where the jaw is open by so
-  /// many rad, since an open jaw explains the motion by itself; empty: all 0.
+  /// Per muscle: a factor on activation, ring and tone; empty: all 1.
+  Eigen::VectorXd readiness = {};
+  /// Per muscle: divides the factor by 1 + yields * opening (rad of jaw opening), since an open jaw
+  /// explains the motion by itself; empty: all 0.
   Eigen::VectorXd yields = {};
   Eigen::MatrixXd correlation = {};  ///< between the activations; empty: none
 };

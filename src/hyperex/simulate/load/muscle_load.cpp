@@ -111,8 +111,8 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
 }
 
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
-/// patches the tissue under the muscles' forces and the field between the points are two guesses of
-/// how the skin moves: of each column its `tissue_share` of the one and the rest of the other.
+/// patches a column's displacement is `tissue_share` of that under its own forces, plus the rest of
+/// the field interpolated between the points. For the left-over it is that field alone.
 HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
                     const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
                     Eigen::Index points, const std::function<void()>& between) {
@@ -193,8 +193,8 @@ Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
   return svd.matrixU().leftCols(kept);
 }
 
-/// Places that what the shapes leave over at the points does not move: beside the ears, the root of
-/// the nose and the middles of the brows, without those near a driven point.
+/// Places that the residual displacement does not move: beside the ears, the root of the nose and
+/// the middles of the brows, without those near a driven point.
 std::vector<Vec3> unmoved_places(const std::vector<DrivenPoint>& points,
                                  const io::Landmarks& landmarks) {
   constexpr double near_m = 0.015;

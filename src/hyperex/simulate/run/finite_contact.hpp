@@ -15,14 +15,15 @@ namespace hyperex::simulate {
 /// steps are repeated for each frame until nothing penetrates any more or the improvement is small.
 class FiniteContact {
  public:
-  /// The displacement of the skin, of that of all nodes, in frame `i`.
+  /// Returns the skin's displacement in frame `i`, given the displacement of all nodes.
   using SkinOf = std::function<PointsF(std::size_t i, const Points& nodes)>;
-  /// Everything must outlive this.
+  /// The objects passed by reference must outlive this one.
   FiniteContact(const MouthContact& contact, FiniteCorrection& tissue, const ContactFrames& frames,
                 SkinOf skin_of);
 
-  /// Corrects a frame: `displacement` of all nodes (3 |nodes|, m). It stays where no equilibrium is
-  /// found. Frames are given in the order of their times.
+  /// Corrects a frame: `displacement` of all nodes (3 |nodes|, m). It is left unchanged where the
+  /// first round finds no equilibrium; later frames that penetrate as deep are then left unchanged
+  /// too. Frames are given in the order of their times.
   void correct(std::size_t frame, Eigen::Ref<Eigen::VectorXd> displacement);
 
   double residual_m() const { return residual_m_; }  ///< greatest of the complementarity problems

@@ -50,7 +50,8 @@ class Forces {
       turning_.noalias() = drive_.turning.force * turning_courses_;
     }
   }
-  /// Those of the last time, in tissue displaced by d.
+  /// The forces at the time of the last at(). Those of drive.turning are rotated with the tissue,
+  /// which is displaced by d.
   void turned(const Eigen::VectorXd& d, Eigen::VectorXd& out) {
     out = still_;
     if (!turns()) return;

@@ -48,8 +48,8 @@ class Readout {
   std::shared_ptr<const LipSurfaces> surfaces_;
 };
 
-/// As floats. Subnormal numbers become 0: some libraries' threads flush them and others do not, and
-/// results must not depend on the thread.
+/// Converts to single precision. Subnormal numbers become 0: some libraries' threads flush them and
+/// others do not, and results must not depend on the thread.
 PointsF in_single_precision(const Points& points);
 
 /// The points of a motion that drive, and their places on the skin.

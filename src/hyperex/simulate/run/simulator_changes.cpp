@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later Setting options, and their effect on the stages.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Setting options, and their effect on the stages.
 #include <utility>
 
 #include "hyperex/core/error.hpp"

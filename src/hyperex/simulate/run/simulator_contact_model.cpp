@@ -1,5 +1,6 @@
-// SPDX-License-Identifier: GPL-3.0-or-later The stages of contact: the places that may come into
-// contact, and the compliance of the tissue there.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stages of contact: the places that may come into contact, and the compliance of the tissue
+// there.
 #include <algorithm>
 #include <utility>
 

@@ -1,4 +1,5 @@
-// SPDX-License-Identifier: GPL-3.0-or-later The stored frames of a run, and its report.
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The stored frames of a run, and its report.
 #include <fmt/format.h>
 
 #include <algorithm>

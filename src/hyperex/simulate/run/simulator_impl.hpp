@@ -65,10 +65,9 @@ struct Simulator::Impl {
   void ensure_moved_bones();
   /// Forces of tissue that grows.
   void ensure_added_volume();
-  /// The pattern of the tissue with what was added to it, at finite strain.
+  /// The tissue's assembler; at finite strain, that of the tissue grown by the added volume.
   const fem::Assembler& grown_pattern();
-  /// Whether the face at rest is another than the one recorded. The stage of moved bones must be
-  /// there.
+  /// Whether moved bones or added volume change the face at rest. Needs the stage `moved_bones`.
   bool changes_rest() const;
   void ensure_pattern();
   void ensure_factor();
@@ -108,10 +107,9 @@ struct Simulator::Impl {
   /// Displacements at `times`, in steps.
   Solution solve_linear(const std::vector<double>& times);
   void ensure_response(const fem::ReducedOptions& how);
-  /// The response to the load with other gains as the sum of two: that to the load as it was
-  /// recorded, and that to what the gains add. None where the latter is not simpler than the whole,
-  /// or where the errors of both together are more than is wanted. Numbers do not depend on what
-  /// was run before.
+  /// The response with changed gains, as the sum of the response to the load as recorded and that
+  /// to the load that the gains add. Empty where this would save little, or where the estimated
+  /// error of the sum exceeds the tolerance. Its numbers do not depend on earlier runs.
   std::optional<fem::Response> response_by_gains(const fem::ReducedOptions& how);
   void report_solution(const Solution& solution);
   /// Where bones are moved: adds the face at rest to displacements at small strain (at finite
@@ -168,7 +166,7 @@ struct Simulator::Impl {
   PointsF step(const Points& displacement_m);
 };
 
-/// Springs that hold driven nodes where they are driven, as contact feels them.
+/// Adds springs that hold driven nodes. Contact uses them instead of prescribed displacements.
 void add_patch_springs(const tissue::TissueMesh& mesh, const std::vector<int>& nodes,
                        double stiffness_pa_per_m, fem::SparseMatrix& stiffness);
 

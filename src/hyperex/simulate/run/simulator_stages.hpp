@@ -22,7 +22,7 @@
 
 namespace hyperex::simulate {
 
-/// What the values of the matrices are computed from, besides their patterns.
+/// What determines the values in the system matrices, given their sparsity pattern.
 struct MatrixValues {
   TissueValues tissue;  ///< without the volume, which changes no matrix
   ModelOptions model;
@@ -53,16 +53,18 @@ struct AddedVolume {
 /// The support with segments of bone moved by surgery, and what it does to the face at rest.
 struct MovedBones {
   bool any = false;
-  /// Zero where none is moved.
-  Eigen::VectorXd prescribed, force;  ///< m, as Boundary::prescribed(); N, all unknowns
-  /// What is added to the forces of unit motions of the jaw (Boundary::unit_forces_of_jaw), as it
-  /// now lies elsewhere.
+  /// Displacement prescribed by moved bones, m, as Boundary::prescribed(); zero where none is
+  /// moved.
+  Eigen::VectorXd prescribed;
+  /// Forces of the springs of moved bones, N, all unknowns; zero where none is moved.
+  Eigen::VectorXd force;
+  /// Change of Boundary::unit_forces_of_jaw() by surgery; empty where no bone is moved.
   Eigen::MatrixXd jaw_force_change;
   Eigen::Isometry3d upper_teeth = Eigen::Isometry3d::Identity(),
                     lower_teeth = Eigen::Isometry3d::Identity();
 };
 
-/// Contact in the compliance of the tissue at rest, and the factor that the compliance is read off.
+/// Contact with the compliance of the tissue at rest, and the factor that gives the compliance.
 struct ContactModel {
   std::unique_ptr<fem::PartitionedFactor> factor;
   MouthContact contact;

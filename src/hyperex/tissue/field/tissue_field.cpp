@@ -25,7 +25,8 @@ using SkinField = std::array<Eigen::VectorXd, parameter_count>;
 /// How much tissue may grow or shrink.
 constexpr double kLeastVolumeRatio = 0.5, kMostVolumeRatio = 2;
 
-/// As upper_lip_margin: far on the landmark's own lip, 0 for those of neither.
+/// The margin (anatomy::upper_lip_margin) at which a landmark is looked up on the skin: far on the
+/// landmark's own lip, 0 for landmarks of neither lip.
 double margin_of(const std::string& landmark) {
   if (landmark == "labiale_superius" || landmark.starts_with("crista_philtri")) return 1;
   if (landmark == "labiale_inferius") return -1;

@@ -47,7 +47,7 @@ struct FaceState {
 struct FitOptions {
   int iterations = 3;     ///< the first without skin, then with coarse skin, then with fine skin
   double network_px = 3;  ///< of a point of the network
-  /// Of a point on the outline of the face, which slides over the skin.
+  /// For points on the outline of the face, which slide over the skin.
   double network_outline_px = 6;
   /// For points inside the outer border of the lips. There, the network follows the appearance of
   /// the lips rather than the motion of the skin.
@@ -74,7 +74,7 @@ struct FitOptions {
   double units = 0.5;       ///< relative to the unit's typical weight
   double units_step = 0.5;  ///< change between frames, relative to the typical weight
   double free_m = 0.015;    ///< of a vertex's free displacement
-  /// Of a vertex's free displacement relative to the mean of its neighbours.
+  /// For a vertex's free displacement relative to the mean of its neighbours.
   double free_bend_m = 0.0007;
   double free_step_m = 0.004;  ///< change of a free displacement between frames
 };

@@ -10,7 +10,7 @@ struct NeutralOptions {
   FitOptions fit;
   int rounds = 3;
   double vertex_m = 0.001;  ///< of a vertex's mean over the frames
-  /// Of a vertex's deviation from the model, relative to that of its neighbours.
+  /// For a vertex's deviation from the model, relative to that of its neighbours.
   double bend_m = 0.001;
   double eye_distance_m = 0.09;  ///< between the outer corners; used if there is no depth
 };

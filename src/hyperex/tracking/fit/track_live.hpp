@@ -15,7 +15,7 @@ struct LiveStatus {
   std::size_t frames = 0, valid = 0;  ///< number of finished frames
   std::size_t held_back = 0;  ///< processed by the network, but waiting for the person's shape
   std::size_t dropped = 0;    ///< by the source
-  /// Of these, the frames lost until the buffered frames were finished.
+  /// The frames among them that were lost until the buffered frames were finished.
   std::size_t dropped_while_learning = 0;
   double seconds = 0;  ///< from the first frame's arrival
   /// Rate of finished frames, by arrival time, over about the last second.

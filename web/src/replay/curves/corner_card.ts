@@ -46,7 +46,7 @@ function sideWords(side: Side, valueMm: number): HTMLElement {
   return words;
 }
 
-/** Of the corner that a variant changes more. */
+/** The change of the corner that a variant changes more. */
 function mostChanged(replay: Replay, face: number): CornerChange | null {
   const changes = sides.flatMap((side) => cornerChange(replay, face, side) ?? []);
   return changes.sort((a, b) => Math.abs(b.byMm) - Math.abs(a.byMm))[0] ?? null;
@@ -164,7 +164,7 @@ function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement 
   return box;
 }
 
-/** Of the face shown, of two the second dashed. Empty where the run has no points at the corners. */
+/** Curves of the faces shown; the second one is dashed. Empty where the run has no points at the corners. */
 export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>[] {
   const faces = [...new Set(shown.visible)];
   const base = cornersOf(replay, faces[0]);

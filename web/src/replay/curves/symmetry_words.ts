@@ -18,7 +18,7 @@ function plainFigure(replay: Replay, face: number): string {
   return `${mm(apartMm(corners))} apart${ratio}`;
 }
 
-/** Of the faces shown, else of the only one. */
+/** Figures of the faces shown. Each face is named where the run has several. */
 export function plainFigures(replay: Replay, shown: Shown): string {
   const faces = [...new Set(shown.visible)];
   const figures = faces.flatMap((face) => {

@@ -65,7 +65,7 @@ class Pocket {
   }
 }
 
-/** As the program has it (src/hyperex/report/face_backing.hpp, light_between_lips). */
+/** The same formula as light_between_lips in src/hyperex/report/face_backing.hpp. */
 function lightBetweenLips(loop: Int32Array, points: Float32Array): number {
   const [least, fallsM] = [0.15, 1.5e-3];
   const [first, from, to, area] = [new Vector3(), new Vector3(), new Vector3(), new Vector3()];

@@ -37,7 +37,7 @@ export interface Colouring {
   key: string;
   /** On its button. */
   label: string;
-  /** Of one face or two, as places in `Replay.faces`. */
+  /** The painting of one face or two, given by their indices in `Replay.faces`. */
   of(shown: number[]): Painting;
 }
 

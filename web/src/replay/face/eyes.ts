@@ -16,7 +16,7 @@ const materials = {
   }),
 };
 
-/** As an angle from the gaze, radians: a little wider than the iris. */
+/** Radius of the cornea as an angle from the gaze, radians: a little wider than the iris. */
 const corneaAngle = 0.56;
 /** Share of the ball's radius at which the cornea's centre of curvature lies before the ball's: 12 and 7.8 mm. */
 const corneaCentre = 0.4;

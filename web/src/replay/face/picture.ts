@@ -9,7 +9,7 @@ export interface PictureParts {
   /** The faces as drawn, `scale` times the size of the stage. */
   stage: HTMLCanvasElement;
   scale: number;
-  /** Of the subject's own sides, in pixels of the stage. */
+  /** Marks of the subject's own sides, in pixels of the stage. */
   marks: SideMark[];
   title: string;
   time: string;
@@ -27,9 +27,9 @@ const headHeight = 58;
 const barWidth = 340;
 const barHeight = 76;
 const remarkHeight = 16;
-/** Of the words in the foot, and of those below a face. */
+/** Line height in the foot and below a face. */
 const lineHeight = 16;
-/** Of the text below a face. */
+/** Most lines of the text below a face. */
 const mostLines = 14;
 const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
@@ -75,7 +75,7 @@ class Pen {
   }
 }
 
-/** As the stage of the page: lighter behind the face. */
+/** The same background as on the page: lighter behind the face. */
 function drawBackground(pen: Pen, top: number, stageHeight: number): void {
   const { width, on } = pen;
   on.save();

@@ -31,7 +31,7 @@ export class PicturePace {
     return this.share * (this.late < lateInARow && !this.streaming ? inMotion : inMotion * whenLate);
   }
 
-  /** Of the picture at rest. */
+  /** Pixel ratio of the picture at rest. */
   get fineRatio(): number {
     return this.share * atRest;
   }

@@ -18,7 +18,7 @@ export interface SideMark {
 const leastBreadth = 0.35;
 const insetPx = 16;
 
-/** Of a face whose own left is the world's +x, drawn from `x` on over `width` pixels. */
+/** The marks of a face whose own left is the world's +x. It is drawn from `x` on over `width` pixels. */
 export function sideMarks({ matrixWorld: { elements } }: PerspectiveCamera, x: number, width: number, height: number): SideMark[] {
   const [breadth, towards] = [elements[0], elements[8]];
   if (Math.abs(breadth) < leastBreadth)

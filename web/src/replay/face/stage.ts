@@ -26,7 +26,7 @@ import { FaceViewer } from './viewer';
 import { WipeHandle } from './wipe_handle';
 
 const pictureScale = 2;
-/** Of the picture on paper, where a stage is some 9 cm wide. */
+/** Scale of the picture on paper, where a stage is some 9 cm wide. */
 const paperScale = 1.5;
 
 /** Actions of the pointer. They are in the list of keys, since the page has no other such list. */
@@ -287,7 +287,7 @@ export class Stage {
     return () => printedStage({ ...this.parts, stage, marks, scale: paperScale });
   }
 
-  /** Of a picture in the page's present colours. */
+  /** The parts of a picture in the page's present colours. */
   private get parts(): Omit<PictureParts, 'stage' | 'marks' | 'scale'> {
     const { replay, shown, timeS, wipe } = this;
     const { palette } = theme();

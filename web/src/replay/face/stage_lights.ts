@@ -14,7 +14,7 @@ export class StageLights {
       rig.add(light, light.target);
       this.lights.push({ light, onSkin, onMap });
     };
-    // As for a portrait: a warm key beside and a little above the camera, a cool fill on the other side, an edge from
+    // Light as for a portrait: a warm key beside and a little above the camera, a cool fill on the other side, an edge from
     // behind. A higher key would darken the sockets, and the face would look angry.
     add('#fff3e6', 2.05, 1.3, -0.75, 0.5, 1.0);
     add('#e6edff', 0.85, 0.5, 1.1, 0.15, 0.8);

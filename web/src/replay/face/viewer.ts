@@ -205,7 +205,7 @@ export class FaceViewer {
     return places.flatMap(({ x, width }) => sideMarks(this.view.camera, x, width, this.host.clientHeight));
   }
 
-  /** Of the faces shown, left one first. */
+  /** Figures of the faces shown, left one first. */
   figuresAt(vertex: number): { displacementMm: number; share: number }[] {
     return this.passes().map(({ body }) => body.figuresOf(vertex));
   }
