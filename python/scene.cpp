@@ -29,14 +29,6 @@ std::string json_of(const py::handle& value) {
   return py::module_::import("json").attr("dumps")(value).cast<std::string>();
 }
 
-/// {"tissue.young_kpa": 300} as "tissue.young_kpa=300"; JSON's scalars and lists are TOML's.
-std::vector<std::string> overrides_of(const py::dict& changes) {
-  std::vector<std::string> list;
-  for (const auto& [key, value] : changes)
-    list.push_back(key.cast<std::string>() + "=" + json_of(value));
-  return list;
-}
-
 session::Changes changes_of(const py::dict& changes) {
   session::Changes out;
   for (const auto& [key, value] : changes)
@@ -50,7 +42,7 @@ py::object loaded(const nlohmann::ordered_json& json) {
 }
 
 py::object run(const Path& file, const Path& out, const py::dict& changes) {
-  const std::vector<std::string> overrides = overrides_of(changes);
+  const std::vector<std::string> overrides = overrides_of(changes_of(changes));
   nlohmann::ordered_json summary;
   {
     const py::gil_scoped_release unlocked;
@@ -74,7 +66,7 @@ std::unique_ptr<RunResult> copied(const RunResult& run) {
 class PythonSession {
  public:
   PythonSession(const Path& file, const py::dict& changes)
-      : PythonSession([overrides = overrides_of(changes), &file] {
+      : PythonSession([overrides = overrides_of(changes_of(changes)), &file] {
           return session::FaceSession(scene::read_scene(file, overrides), logged());
         }) {}
   PythonSession(const Face& face, const motion::Motion& motion, const py::dict& changes)
@@ -317,7 +309,7 @@ void bind_scene_class(py::module_& m) {
 }
 
 py::object checked(const Path& file, const py::dict& changes) {
-  const std::vector<std::string> overrides = overrides_of(changes);
+  const std::vector<std::string> overrides = overrides_of(changes_of(changes));
   std::vector<Note> found;
   {
     const py::gil_scoped_release unlocked;

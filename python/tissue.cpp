@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the soft tissue, and what the tissue is made of.
 #include "arrays.hpp"
-#include "hyperex/core/check_options.hpp"
 #include "hyperex/session/thinned_scan.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
@@ -14,12 +13,7 @@ namespace {
 using simulate::TissueValues;
 using tissue::TissueMeshOptions;
 
-void check(const TissueMeshOptions& options) {
-  if (const auto problems = out_of_bounds(options); !problems.empty()) throw InputError(problems);
-}
-
 SharedTissueMesh of_face(const Face& face, const TissueMeshOptions& options) {
-  check(options);
   return std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(face.scan.mesh, face.landmarks, options, face.scan.file.string(),
                                 session::on_seams(face.scan)));
@@ -27,7 +21,6 @@ SharedTissueMesh of_face(const Face& face, const TissueMeshOptions& options) {
 
 SharedTissueMesh of_surface(const TriMesh& mesh, const io::Landmarks& landmarks,
                             const TissueMeshOptions& options, const std::string& source) {
-  check(options);
   return std::make_shared<tissue::TissueMesh>(
       tissue::build_tissue_mesh(mesh, landmarks, options, source));
 }

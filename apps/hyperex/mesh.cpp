@@ -7,6 +7,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "described_option.hpp"
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
@@ -28,8 +29,7 @@ constexpr const char* kThickness = "thickness (mm)";
 struct MeshOptions {
   std::filesystem::path scan, landmarks, out;
   std::string unit;
-  double element_size_mm = 3.3, thickness_mm = 0, trim_border_mm = 0;
-  int layers = 2;
+  tissue::TissueMeshOptions mesh;
 };
 
 /// NAME_landmarks.json or NAME.mrk.json beside NAME.ply; empty where there is neither.
@@ -84,15 +84,10 @@ void run(const MeshOptions& options) {
     std::cerr << anatomy::unknown_landmarks_note(unknown).text << '\n';
   const auto landmarks =
       anatomy::complete_landmarks(given, scan.mesh, (file.empty() ? options.scan : file).string());
-  tissue::TissueMeshOptions mesh_options;
-  mesh_options.element_size_m = options.element_size_mm * 1e-3;
-  mesh_options.layers = options.layers;
-  mesh_options.thickness_m = options.thickness_mm * 1e-3;
-  mesh_options.trim_border_m = options.trim_border_mm * 1e-3;
   tissue::TissueMesh mesh;
   {
     Progress progress("meshing the soft tissue", 0);
-    mesh = tissue::build_tissue_mesh(scan.mesh, landmarks.landmarks, mesh_options,
+    mesh = tissue::build_tissue_mesh(scan.mesh, landmarks.landmarks, options.mesh,
                                      options.scan.string());
   }
   Eigen::VectorXf thickness(mesh.volume.nodes.rows());
@@ -117,23 +112,11 @@ void add_mesh(CLI::App& program) {
                       "found on the scan)");
   command->add_option("--unit", options->unit, "Unit of the scan")
       ->check(CLI::IsMember({"mm", "cm", "m"}));
-  command
-      ->add_option("--element-size-mm", options->element_size_mm, "Edge length at the mouth (mm)")
-      ->capture_default_str()
-      ->check(CLI::Range(0.5, 30.0));
-  command->add_option("--layers", options->layers, "Layers of elements")
-      ->capture_default_str()
-      ->check(CLI::Range(1, 8));
-  command
-      ->add_option("--thickness-mm", options->thickness_mm,
-                   "Uniform thickness (mm); 0: published depths")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 40.0));
-  command
-      ->add_option("--trim-border-mm", options->trim_border_mm,
-                   "Width of the strip removed at the outer border (mm)")
-      ->capture_default_str()
-      ->check(CLI::Range(0.0, 50.0));
+  using Mesh = tissue::TissueMeshOptions;
+  add_described(*command, "--element-size-mm", options->mesh, &Mesh::element_size_m);
+  add_described(*command, "--layers", options->mesh, &Mesh::layers);
+  add_described(*command, "--thickness-mm", options->mesh, &Mesh::thickness_m);
+  add_described(*command, "--trim-border-mm", options->mesh, &Mesh::trim_border_m);
   command->footer("Example: hyperex mesh scan.ply --out tissue.vtu");
   command->callback([options] { run(*options); });
 }

@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "described_option.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
@@ -27,6 +28,7 @@
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
+#include "hyperex/scene/scene.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
@@ -40,7 +42,8 @@ namespace fs = std::filesystem;
 
 struct SymmetryOptions {
   fs::path motion, rig, out, excursions, picture, map, map_ply, landmarks;
-  double floor = 1e-6, rate_hz = 30, lowpass_hz = metrics::kUsualLowpass_hz, repetition_mm = 0;
+  scene::OutputOptions output;  // those of a run that apply here
+  double rate_hz = 30;
   double end_s = std::numeric_limits<double>::infinity();
   std::string unit, jitter_mm = "auto";
   std::vector<std::string> rigid_points;
@@ -127,11 +130,11 @@ metrics::SymmetryCurve curve_of(const motion::Motion& motion, const SymmetryOpti
                                 metrics::symmetry_columns(motion).empty() &&
                                 !metrics::excursions_of(motion, 0, 0).pairs.empty();
   try {
-    return metrics::symmetry_of(motion, options.floor);
+    return metrics::symmetry_of(motion, options.output.symmetry_floor);
   } catch (const InputError& error) {
     if (!excursions_alone) throw;
     std::cerr << "S(t) is left out: " << error.what() << '\n';
-    return metrics::symmetry_without_points(motion, options.floor);
+    return metrics::symmetry_without_points(motion, options.output.symmetry_floor);
   }
 }
 
@@ -182,8 +185,9 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   const session::RecordedJitter jitter = jitter_of(options, frames.tracks, {});
   warn_of_unknown(jitter);
   metrics::SymmetryMeasures all;
-  all.curve = metrics::symmetry_of(frames.tracks, options.floor, jitter.jitter_m);
-  all.excursions = metrics::excursions_of(frames.tracks, jitter.jitter_m, options.lowpass_hz);
+  all.curve = metrics::symmetry_of(frames.tracks, options.output.symmetry_floor, jitter.jitter_m);
+  all.excursions =
+      metrics::excursions_of(frames.tracks, jitter.jitter_m, options.output.lowpass_hz);
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
@@ -258,11 +262,11 @@ void run(const SymmetryOptions& options) {
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0 && all.curve.known())
-    all.curve = metrics::symmetry_of(motion, options.floor, jitter.jitter_m);
-  all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.lowpass_hz);
+    all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
+  all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.output.lowpass_hz);
   metrics::add_pose_floors(
       all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
-  metrics::add_repetition_floor(all.excursions, options.repetition_mm);
+  metrics::add_repetition_floor(all.excursions, 1e3 * options.output.repetition_m);
   report(options, all, jitter, stabilised);
 }
 
@@ -279,40 +283,18 @@ void add_surface_options(CLI::App& command, SymmetryOptions& options) {
       ->capture_default_str();
 }
 
-/// Refuses "nan", which every comparison lets pass.
-std::string finite(const std::string& text) {
-  const auto value = io::parse_number(text);
-  return value && std::isfinite(*value) ? "" : text + ": expected a number";
-}
-
 /// Options that say what is taken for noise.
 void add_noise_options(CLI::App& command, SymmetryOptions& options) {
-  command
-      .add_option("--floor", options.floor,
-                  "Least |xi_L - xi_R| that is resolved; S stops at its logarithm")
-      ->capture_default_str();
+  add_described(command, "--floor", options.output, &scene::OutputOptions::symmetry_floor);
   command
       .add_option("--jitter-mm", options.jitter_mm,
                   "Jitter of the points (standard deviation per coordinate, mm), which sets the "
                   "noise floor. auto: for a run's folder the value in its summary.json, else "
                   "estimated from the fourth differences of the points in time; 0: exact points")
       ->capture_default_str();
-  command
-      .add_option("--repetition-mm", options.repetition_mm,
-                  "A person's own variation, which counts in the floor of a difference: 95 % of "
-                  "the differences between two performances are below this (mm). 0: the recording "
-                  "alone is judged; a posed smile after a week: 1.5")
-      ->check(finite)
-      ->check(CLI::Range(0.0, 20.0))
-      ->capture_default_str();
-  command
-      .add_option("--lowpass-hz", options.lowpass_hz,
-                  "Cut-off frequency (Hz) of the zero-phase low-pass filter for excursions, "
-                  "speeds and paths "
-                  "where there is jitter; 0: no filter")
-      ->check(finite)
-      ->check(CLI::Range(0.0, 100.0))
-      ->capture_default_str();
+  using Output = scene::OutputOptions;
+  add_described(command, "--repetition-mm", options.output, &Output::repetition_m);
+  add_described(command, "--lowpass-hz", options.output, &Output::lowpass_hz);
 }
 
 }  // namespace

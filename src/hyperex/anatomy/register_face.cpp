@@ -36,13 +36,6 @@ std::vector<std::pair<int, int>> edges_of(const Triangles& triangles) {
   return {edges.begin(), edges.end()};
 }
 
-double loop_length(const Points& points, const std::vector<int>& loop) {
-  double length = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    length += (points.row(loop[i]) - points.row(loop[(i + 1) % loop.size()])).norm();
-  return length;
-}
-
 Vec3 loop_middle(const Points& points, const std::vector<int>& loop) {
   Vec3 sum = Vec3::Zero();
   for (const int vertex : loop) sum += points.row(vertex).transpose();
@@ -107,12 +100,12 @@ class Target {
 
 /// The hole of the scan, if any, that is this opening of the face; -1 where there is none.
 int find_opening(const Target& target, const Points& face, const std::vector<int>& contour) {
-  const double length = loop_length(face, contour);
+  const double length = loop_length(contour, face);
   const Vec3 middle = loop_middle(face, contour);
   int best = -1;
   double least = kLoopOffset * length;
   for (std::size_t i = 0; i < target.loops().size(); ++i) {
-    const double ratio = loop_length(target.scan().points, target.loops()[i]) / length;
+    const double ratio = loop_length(target.loops()[i], target.scan().points) / length;
     if (ratio > kLoopLengthRatio || ratio < 1 / kLoopLengthRatio) continue;
     const double offset = (loop_middle(target.scan().points, target.loops()[i]) - middle).norm();
     if (offset < least) {

@@ -44,6 +44,9 @@ class BoundsCheck {
   template <class Value>
   void check(const std::string& name, const std::vector<Value>& values,
              const OptionDetails& details) {
+    const std::size_t n = values.size();
+    if (n > details.most || (n > 0 && n < details.least))
+      problems_.push_back({{}, 0, name, fmt::format("{} of them", n), number_of(details)});
     for (std::size_t i = 0; i < values.size(); ++i)
       check(fmt::format("{}[{}]", name, i), values[i], details);
   }
@@ -53,6 +56,10 @@ class BoundsCheck {
       BoundsCheck<Value> inner(value, name + ".", problems_);
       Value::describe(inner);
     }
+  }
+  static std::string number_of(const OptionDetails& details) {
+    if (details.least == details.most) return fmt::format("{}", details.most);
+    return fmt::format("{} to {}", details.least, details.most);
   }
   void check_number(const std::string& name, double value, const char* what, const Bounds& bounds) {
     if (!std::isfinite(value) || !bounds.holds(value))

@@ -3,6 +3,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -12,6 +13,9 @@
 
 namespace hyperex {
 namespace {
+
+constexpr double kSliver2 = 1e-8;  // (height / longest edge)^2 of triangles that are slivers
+constexpr double kInside = 1e-9;   // a weight above it is not negative by rounding
 
 // The closest point on the segment (a, b), as the fraction of the way from a to b.
 double share_on_segment(const Vec3& p, const Vec3& a, const Vec3& b) {
@@ -32,19 +36,22 @@ ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3&
     const double d2 = (p - point).squaredNorm();
     if (d2 < best.squared_distance) best = {0, point, weights, d2};
   };
-  const Vec3 normal = (b - a).cross(c - a);
+  const Vec3 ab = b - a, ac = c - a, normal = ab.cross(ac);
   const double area2 = normal.squaredNorm();
+  Vec3 foot = Vec3::Constant(-1);  // weights of the foot of the perpendicular
   if (area2 > 0) {
-    Vec3 weights;
-    weights[1] = (p - a).cross(c - a).dot(normal) / area2;
-    weights[2] = (b - a).cross(p - a).dot(normal) / area2;
-    weights[0] = 1 - weights[1] - weights[2];
-    if (weights.minCoeff() >= 0) offer(weights);
+    foot[1] = (p - a).cross(ac).dot(normal) / area2;
+    foot[2] = ab.cross(p - a).dot(normal) / area2;
+    foot[0] = 1 - foot[1] - foot[2];
+    if (foot.minCoeff() >= 0) offer(foot);
   }
-  // The edges are tried even if the foot seems to lie inside: in a sliver, this is decided by
-  // rounding.
+  // The closest point lies on an edge only if the foot lies beyond that edge, where the weight of
+  // the opposite corner is negative. In a sliver rounding decides on which side the foot lies.
+  const double longest2 = std::max({ab.squaredNorm(), ac.squaredNorm(), (c - b).squaredNorm()});
+  const bool sliver = !(area2 > kSliver2 * longest2 * longest2);
   for (int k = 0; k < 3; ++k) {
     const int next = (k + 1) % 3;
+    if (!sliver && foot[(k + 2) % 3] > kInside) continue;
     const double share = share_on_segment(p, corner[k], corner[next]);
     Vec3 weights = Vec3::Zero();
     weights[k] = 1 - share;

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/geometry/transform.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <Eigen/SVD>
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -71,8 +73,10 @@ double spread_off_line(const Points& points) {
   if (points.rows() < 3) return 0;
   const Eigen::RowVector3d mean = points.colwise().mean();
   const Points centred = points.rowwise() - mean;
-  const Vec3 values = Eigen::JacobiSVD<Eigen::MatrixXd>(Eigen::MatrixXd(centred)).singularValues();
-  return values(0) > 0 ? values(1) / values(0) : 0;
+  const Eigen::Matrix3d scatter = centred.transpose() * centred;
+  const Vec3 squared =  // rising
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(scatter, Eigen::EigenvaluesOnly).eigenvalues();
+  return squared(2) > 0 ? std::sqrt(std::max(squared(1), 0.0) / squared(2)) : 0;
 }
 
 }  // namespace hyperex

@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
@@ -74,12 +75,6 @@ void solve(const Pairing& all, const std::vector<double>& weight, MidsagittalPla
   plane.normal = eigen.eigenvectors().col(0).normalized();
   if (plane.normal.dot(all.to_left) < 0) plane.normal *= -1;
   plane.offset_m = plane.normal.dot(middle);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<long>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The surface that is matched with its mirror image.

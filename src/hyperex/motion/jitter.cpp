@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "hyperex/core/quantile.hpp"
+
 namespace hyperex::motion {
 namespace {
 
@@ -41,12 +43,6 @@ std::vector<Eigen::RowVector3d> differences(const Motion& motion, int column, st
     if (difference.allFinite()) out.push_back(difference);
   }
   return out;
-}
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + long(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 /// The mean over columns and axes of the variance estimated from the medians of their differences;

@@ -32,4 +32,10 @@ Value Value::from_json(std::string json) {
   return value;
 }
 
+std::vector<std::string> overrides_of(const Changes& changes) {
+  std::vector<std::string> overrides;
+  for (const auto& [key, value] : changes) overrides.push_back(key + "=" + value.json());
+  return overrides;
+}
+
 }  // namespace hyperex::session

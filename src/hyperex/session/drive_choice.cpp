@@ -6,16 +6,7 @@
 #include "hyperex/scene/keys.hpp"
 
 namespace hyperex::session {
-namespace {
 using simulate::DriveBy;
-
-std::string word_for(DriveBy by) {
-  return by == DriveBy::muscles     ? "muscles"
-         : by == DriveBy::reactions ? "reactions"
-                                    : "displacement";
-}
-
-}  // namespace
 
 Note DriveChoice::note() const {
   return make_note("drive.chosen", why);
@@ -23,7 +14,7 @@ Note DriveChoice::note() const {
 
 DriveChoice drive_choice(const scene::Scene& scene) {
   const auto chosen = [](DriveBy by, const std::string& why) {
-    return DriveChoice{by, fmt::format("driven by {}: {}", word_for(by), why)};
+    return DriveChoice{by, fmt::format("driven by {}: {}", word_of(by), why)};
   };
   if (scene.origins.contains("drive.by")) return chosen(scene.drive.by, "the scene says so");
   for (const auto& [key, origin] : scene.origins)

@@ -20,22 +20,6 @@
 namespace hyperex::session {
 namespace {
 
-/// Whether a scene or one of its variants has contact with teeth, and with eyeballs.
-std::vector<bool> contact_of(const scene::Scene& scene) {
-  std::vector<bool> out{scene.contact.teeth, scene.contact.eyes};
-  for (const scene::Variant& variant : scene.variants) {
-    out[0] = out[0] || variant.scene.contact.teeth;
-    out[1] = out[1] || variant.scene.contact.eyes;
-  }
-  return out;
-}
-
-std::vector<std::string> overrides_of(const Changes& changes) {
-  std::vector<std::string> overrides;
-  for (const auto& [key, value] : changes) overrides.push_back(key + "=" + value.json());
-  return overrides;
-}
-
 scene::GivenFace given_face(Face face, motion::Motion motion) {
   if (motion.source.empty()) motion.source = "the motion";
   if (face.scan.file.empty()) face.scan.file = "the scan";
@@ -187,8 +171,9 @@ void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
 
 /// Made where a face first uses them, since a grid of distances takes some time.
 void FaceSession::Impl::set_obstacles() {
-  if (contact_of(scene) == obstacles_of_teeth_and_eyes) return;
-  obstacles_of_teeth_and_eyes = contact_of(scene);
+  const ObstaclesUsed used = obstacles_used(scene);
+  if (used == obstacles_of_scene) return;
+  obstacles_of_scene = used;
   obstacles = obstacles_of(scene, inputs, *face.mesh, teeth.get());
   simulator->set_obstacles(obstacles);
   next_variant.reset();

@@ -7,6 +7,7 @@
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/landmark_search.hpp"
 #include "hyperex/session/mirrored_twin.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -40,7 +41,7 @@ struct FaceSession::Impl {
   std::optional<tissue::TissueField> field;
   std::optional<simulate::Simulator> simulator;
   std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles;
-  std::vector<bool> obstacles_of_teeth_and_eyes{false, false};  // which of them are set
+  ObstaclesUsed obstacles_of_scene{false, false};  // which of them are set
   bool stale = true;
   simulate::SimulationResult simulation;
   metrics::SymmetryMeasures symmetry;

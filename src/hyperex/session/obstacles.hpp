@@ -8,6 +8,13 @@
 
 namespace hyperex::session {
 
+/// The bodies of contact that a scene or one of its variants uses.
+struct ObstaclesUsed {
+  bool teeth = false, eyes = false;
+  bool operator==(const ObstaclesUsed&) const = default;
+};
+ObstaclesUsed obstacles_used(const scene::Scene& scene);
+
 /// The bodies of contact that a scene or one of its variants uses (contact.teeth, contact.eyes);
 /// null where there are none. `teeth`: at rest; null: no teeth.
 std::shared_ptr<const std::vector<simulate::Obstacle>> obstacles_of(const scene::Scene& scene,

@@ -88,10 +88,9 @@ void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& proble
   for (std::size_t i = 0; i < o.surgery.bones.size(); ++i) {
     const BoneMove& move = o.surgery.bones[i];
     for (const auto& [name, of] : {std::pair{"move_m", &move.move_m}, {"turn_deg", &move.turn_deg}})
-      if (of->size() != 3)
-        problems.push_back(wrong(fmt::format("surgery.bone[{}].{}", i, name).c_str(),
-                                 fmt::format("{} numbers", of->size()),
-                                 "3: to the left, up, forward"));
+      if (of->empty())
+        problems.push_back(
+            wrong(fmt::format("surgery.bone[{}].{}", i, name).c_str(), "0 of them", "3"));
     const BoneCut usual = usual_cut(move.part);
     const bool chin = move.part == BonePart::chin || move.part == BonePart::maxilla;
     const bool fits =

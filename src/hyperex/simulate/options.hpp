@@ -123,6 +123,14 @@ struct SupportOptions {
     v.option(HX_MEMBER(jaw_points),
              "Points whose motion rotates the jaw. Empty: those of the chin that the recording "
              "has.");
+    v.option(HX_MEMBER(teeth_layer), "The layer between lips and teeth.", {.in_scene = false});
+    v.option(HX_MEMBER(teeth_reach_m), "How far from the lips that layer reaches.",
+             {.unit = kMillimetres, .bounds = {0, 0.1}, .in_scene = false});
+    v.option(HX_MEMBER(throat_pa_per_m),
+             "Stiffness of an elastic foundation under the floor of the mouth. 0: none.",
+             {.unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}, .in_scene = false});
+    v.option(HX_MEMBER(throat_reach_m), "How far from the jaw's edge that foundation follows it.",
+             {.unit = kMillimetres, .bounds = {0.001, 1}, .in_scene = false});
   }
 };
 

@@ -108,6 +108,19 @@ TEST(SimulationOptions, BoundsOfEveryNumberHold) {
   EXPECT_GE(count, 25);
 }
 
+TEST(SimulationOptions, ListsHaveTheLengthsThatAreDescribed) {
+  SimulationOptions options;
+  options.drive.by = DriveBy::muscles;
+  options.surgery.bones = {{.part = BonePart::mandible, .move_m = {0, 0.001}}};
+  EXPECT_THAT(said_of(options), HasSubstr("move_m = 2 of them: expected 3"));
+  options.surgery.bones[0].move_m = {0, 0.001, 0, 0};
+  EXPECT_THAT(said_of(options), HasSubstr("move_m = 4 of them: expected 3"));
+  options.surgery.bones[0].move_m = {};
+  EXPECT_THAT(said_of(options), HasSubstr("move_m = 0 of them: expected 3"));
+  options.surgery.bones[0].move_m = {0, 0.001, 0};
+  EXPECT_EQ(said_of(options), "");
+}
+
 TEST(SimulationOptions, RatiosOfALawAreRefusedTogether) {
   SimulationOptions options;
   options.model.law.c20 = -1;

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hyperex/anatomy/lips.hpp"
+#include "hyperex/core/check_options.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -44,13 +45,6 @@ constexpr double least_border_edge_share = 0.3;
 /// The rims of the lips touch at rest and must not be joined again.
 constexpr CleanOptions cleaned_again{.join_duplicates = false};
 
-double loop_length(const TriMesh& mesh, const std::vector<int>& loop) {
-  double length = 0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    length += (mesh.points.row(loop[i]) - mesh.points.row(loop[(i + 1) % loop.size()])).norm();
-  return length;
-}
-
 double loop_extent(const TriMesh& mesh, const std::vector<int>& loop) {
   Points p(loop.size(), 3);
   for (std::size_t i = 0; i < loop.size(); ++i) p.row(i) = mesh.points.row(loop[i]);
@@ -77,7 +71,8 @@ TriMesh mend(TriMesh mesh, const io::Landmarks& landmarks, double trim_m,
   int mended = 0;
   const auto border = outer_border(mesh);
   for (const auto& loop : boundary_loops(mesh.triangles)) {
-    if (loop.size() < 3 || loop == border || loop_length(mesh, loop) > mended_hole_m) continue;
+    if (loop.size() < 3 || loop == border || loop_length(loop, mesh.points) > mended_hole_m)
+      continue;
     Vec3 centre = Vec3::Zero();
     for (int v : loop) centre += mesh.points.row(v).transpose() / double(loop.size());
     double nearest = 1;
@@ -221,6 +216,7 @@ TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& l
                                      const std::vector<char>& held,
                                      std::shared_ptr<const anatomy::Bones> bones)
     : landmarks_(landmarks), options_(options), source_(std::move(source)) {
+  if (const auto problems = out_of_bounds(options); !problems.empty()) throw InputError(problems);
   naming(source_, [&] {
     TissueMesh& out = *mesh_;
     out.bones = std::move(bones);
