@@ -42,22 +42,29 @@ const char* kind_name(scene::Kind kind) {
   return "";
 }
 
+/// A key, or a column of its tables.
+json described(const scene::KeyInfo& key) {
+  json out = {{"name", key.name},
+              {"kind", kind_name(key.kind)},
+              {"unit", key.unit.name},
+              {"choices", key.choices},
+              {"description", key.description}};
+  if (key.range.least < key.range.most) {
+    out["low"] = key.range.least;
+    out["high"] = key.range.most;
+    out["above_low"] = key.range.above_least;
+    out["or_zero"] = key.range.or_zero;
+  }
+  for (const scene::KeyInfo& column : key.columns) out["columns"].push_back(described(column));
+  return out;
+}
+
 json keys_json() {
   const scene::Scene defaults;
   json out = json::array();
   for (const scene::Key& key : scene::keys()) {
-    json one = {{"name", key.name},
-                {"kind", kind_name(key.kind)},
-                {"unit", key.unit.name},
-                {"choices", key.choices},
-                {"description", key.description},
-                {"default", key.get ? key.get(defaults) : json()}};
-    if (key.range.least < key.range.most) {
-      one["low"] = key.range.least;
-      one["high"] = key.range.most;
-      one["above_low"] = key.range.above_least;
-      one["or_zero"] = key.range.or_zero;
-    }
+    json one = described(key);
+    one["default"] = key.get ? key.get(defaults) : json();
     out.push_back(std::move(one));
   }
   return out;

@@ -274,7 +274,7 @@ test('one word for stiffness', async () => {
 test('a number at the end of what is typed is an amount, in a preset’s name it is not', async () => {
   const { matching, readQuery } = await imported('studio/chooser.ts');
   const choice = (text, amount) => ({ group: 'g', value: text, text, detail: '', amount, take: () => {} });
-  const amount = (unit, most) => ({ unit, usual: 1, least: unit === '%' ? 0 : -most, most });
+  const amount = (unit, most) => ({ unit, usual: 1, bounds: { low: unit === '%' ? 0 : -most, high: most, above: false } });
   const all = [
     choice('Right side', amount('%', 200)), choice('Source model 2'), choice('Lower jaw', amount('mm', 30)),
     choice('Cheek, left', amount('ml', 30)),

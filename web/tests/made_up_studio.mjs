@@ -88,11 +88,20 @@ function replayOf(block, { faces, remarks }) {
 
 const muscles = [['zyg_major', 'zygomatic'], ['frontal_med', 'temporal']].map(([name, branch]) => ({ name, latin: name, group: branch, branch }));
 const key = (name, unit, low, high, value) => ({ name, kind: 'number', unit, low, high, choices: [], default: value, description: name });
+const column = (name, unit, low, high, more) => ({ name, kind: 'number', unit, low, high, above_low: false, choices: [], description: name, ...more });
+const table = (name, columns) => ({ name, kind: 'rows', unit: '', choices: [], default: [], description: name, columns });
+/** Bounds are other ones than the program's: the page has none of its own. */
 const keys = [
   key('tissue.young_kpa', 'kPa', 0, 1e4, 150), key('tissue.viscosity_pa_s', 'Pa s', 0, 1e4, 100), key('tissue.poisson', '', 0, 0.5, 0.45),
-  key('tissue.density_kg_m3', 'kg/m^3', 0, 1e4, 1000), key('mesh.thickness_mm', 'mm', 0, 40, 0), key('motion.gain', '', 0, 5, 1),
+  key('tissue.density_kg_m3', 'kg/m^3', 0, 1e4, 1000), key('mesh.thickness_mm', 'mm', 1, 40, 0), key('motion.gain', '', 0, 5, 1),
+  { ...key('muscles.gain', '', 0, 4, {}), kind: 'factors' },
+  table('tissue.region', [
+    column('young_factor', '', 0, 500, { above_low: true }), column('viscosity_factor', '', 0, 500), column('volume_ml', 'ml', -20, 8),
+  ]),
+  table('mesh.thickness_region', [column('thickness_mm', 'mm', 2, 30)]),
+  table('surgery.bone', [column('move_mm', 'mm', -25, 25), column('turn_deg', 'deg', -12, 12), column('cut_shift_mm', 'mm', -9, 9)]),
 ];
-const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'muscles.gain': {}, 'tissue.region': [], 'motion.file': 'own.csv', 'motion.rigid_points': ['band_1', 'band_2', 'band_3'] };
+const defaults = { ...Object.fromEntries(keys.map(({ name, default: value }) => [name, value])), 'motion.file': 'own.csv', 'motion.rigid_points': ['band_1', 'band_2', 'band_3'] };
 
 const segment = (part, cut, turns_about, plane_at, plane_normal) => ({ part, cut, turns_about, plane_at, plane_normal, half_width_m: 0, ends_at: null });
 /** Without the person's own bones. */

@@ -214,6 +214,38 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('controls and typed amounts take what the server says that a scene allows', async () => {
+    const { page, complaints, close } = await openMadeUp(browser, () => []);
+    const limits = (control) => page.locator(control).evaluate(({ min, max }) => [Number(min), Number(max)]);
+    for (const [control, wanted] of Object.entries({
+      '[data-key="tissue.region"]': [0, 500], '[data-key="tissue.region.volume_ml"]': [-20, 8], '[data-key="mesh.thickness_mm"]': [1, 40],
+      '[data-paint=young]': [0, 500], '[data-paint=viscosity]': [0, 500], '[data-paint=volume]': [-20, 8], '[data-paint=thickness]': [2, 30],
+      '[data-bone="move_mm.2"]': [-25, 25], '[data-bone="turn_deg.0"]': [-12, 12], '[data-key="motion.gain"]': [0, 500],
+    })) assert.deepEqual(await limits(`${control} input[type=number]`), wanted, control);
+    assert.deepEqual(await limits('#bone-hu'), [50, 2000], 'as protocol.json has it');
+    // What is refused itself, and the end of a slider that is allowed less than it usually has.
+    await page.click('#tab-tissue');
+    const factor = page.locator('[data-key="tissue.region"] input[type=number]');
+    await factor.fill('0');
+    await factor.press('Enter');
+    assert.equal(await factor.evaluate((input) => input.validationMessage), '0: > 0 – 500');
+    await factor.blur();
+    assert.equal(await factor.inputValue(), '1');
+    const volume = page.locator('[data-key="tissue.region.volume_ml"] input[type=range]');
+    await volume.focus();
+    await page.keyboard.press('End');
+    assert.equal(await volume.getAttribute('aria-valuetext'), '8 ml');
+    await page.waitForFunction(() => document.querySelectorAll('#tabs .tab-name')[1]?.innerText === 'cheek, right: 8 ml added');
+    // A strength above the end of its slider.
+    await askWhatIf(page, 'right side 300');
+    const strength = page.locator('[data-question=side_R] input[type=number]');
+    await strength.waitFor();
+    assert.deepEqual([await strength.inputValue(), await strength.getAttribute('max')], ['300', '400']);
+    assert.equal(await page.locator('[data-question=side_R] input[type=range]').getAttribute('aria-valuetext'), '300 %');
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   const requested = (session) => session().requests.filter(({ changes }) => changes?.['tissue.region']).at(-1);
 
   test('volume is added to a part of the face: in the row of its stiffness, and 0 takes it away', async () => {

@@ -12,13 +12,13 @@ test('protocol.ts is what the generator makes of protocol.json', async () => {
 test('a field of each type, choices and what may be left out', () => {
   const text = typesOf({
     about: 'a', version: 3,
-    requests: { add_it: { about: 'Adds.', fields: { n: { type: 'integer' }, how: { type: 'string', choices: ['a', 'b'], optional: true } }, answer: {} } },
+    requests: { add_it: { about: 'Adds.', fields: { n: { type: 'integer', least: 1, most: 5 }, how: { type: 'string', choices: ['a', 'b'], optional: true } }, answer: {} } },
     events: { came: { about: 'Came.', fields: { x: { type: 'array' }, free: { type: 'json' } } } },
   });
   for (const line of [
     'export const protocolVersion = 3;', 'export interface AddItRequest {', '  n: number;', "  how?: 'a' | 'b';",
     'export type AddItAnswer = Record<string, never>;', '  x: Stretch;', '  free: unknown;',
-    '  add_it: { fields: AddItRequest; answer: AddItAnswer };', '  came: CameEvent;',
+    '  add_it: { n: { least: 1, most: 5 } },', '  add_it: { fields: AddItRequest; answer: AddItAnswer };', '  came: CameEvent;',
   ])
     assert.ok(text.split('\n').includes(line), line);
   assert.throws(() => typesOf({ about: '', version: 1, requests: {}, events: { e: { about: '', fields: { f: { type: 'float' } } } } }), /unknown type float/);

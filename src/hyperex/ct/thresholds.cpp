@@ -105,12 +105,12 @@ Thresholds of_given_values(const Volume& volume, double skin_hu, double bone_hu,
   return out;
 }
 
-void check_range(const char* option, std::optional<double> hu, double low_hu, double high_hu) {
-  if (hu && !(*hu >= low_hu && *hu <= high_hu))
+void check_range(const char* option, std::optional<double> hu, const Bounds& bounds) {
+  if (hu && !bounds.holds(*hu))
     throw InputError(
-        fmt::format("{} = {:g}: expected {:g} to {:g} where the values are Hounsfield "
+        fmt::format("{} = {:g}: expected {} where the values are Hounsfield "
                     "units",
-                    option, *hu, low_hu, high_hu));
+                    option, *hu, bounds.text()));
 }
 
 }  // namespace
@@ -128,8 +128,8 @@ Thresholds find_skin_threshold(const Volume& volume, const std::string& source,
         "a CT, as an MRI or another picture shows no bone to measure, or --skin-hu and a greater "
         "--bone-hu for a cone-beam CT in other units",
         source));
-  check_range("--skin-hu", skin_hu, -900, 200);
-  check_range("--bone-hu", bone_hu, 50, 2000);
+  check_range("--skin-hu", skin_hu, skin_hu_in);
+  check_range("--bone-hu", bone_hu, bone_hu_in);
   Thresholds out;
   out.air_hu = histogram.mode(-1100, -850);
   out.soft_hu = histogram.mode(-150, 200);

@@ -3,9 +3,13 @@
 #include <optional>
 #include <string>
 
+#include "hyperex/core/bounds.hpp"
 #include "hyperex/ct/volume.hpp"
 
 namespace hyperex::ct {
+
+/// What values of the skin and of bone may be given, HU.
+inline constexpr Bounds skin_hu_in{-900, 200}, bone_hu_in{50, 2000};
 
 /// Grey values (HU) that the surfaces are drawn at, and what they were found from.
 struct Thresholds {

@@ -13,6 +13,7 @@ import { BoneDivision } from './bone_division';
 import { BoneHandles } from './bone_handles';
 import { boneKey, boneParts, isStill, moveOf, movesOf, withMove, type BoneMove, type BonePart, type BonesKnown } from './bone_moves';
 import { axisColours, BoneView } from './bone_view';
+import { clipped, type Bounds } from './bounds';
 import { Refused, type Connection } from './connection';
 import type { Edits } from './edits';
 import type { Control, RemarkPanel } from './remark_places';
@@ -20,9 +21,10 @@ import { linear, Slider } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-const [mostMm, mostDeg] = [15, 15];
-/** Of digits and arrows, as surgery.bone allows. */
-const most = 30;
+/** Where the sliders end is a choice of this page: surgery seldom moves a bone farther. Digits and arrows may go as far as
+ *  the scene allows. */
+const usualMm = [-15, 15] as const;
+const usualDeg = [-15, 15] as const;
 const tenth = (value: number): number => Math.round(10 * value) / 10;
 
 export class BonesPanel implements RemarkPanel {
@@ -33,9 +35,9 @@ export class BonesPanel implements RemarkPanel {
   private readonly parts = element('div', '', 'segments');
   private readonly cut = element('select');
   private readonly cutLabel = element('label', '', 'part');
-  private readonly moves: Slider[] = [];
-  private readonly turns: Slider[] = [];
-  private readonly shift: Slider;
+  private moves: Slider[] = [];
+  private turns: Slider[] = [];
+  private shift: Slider | null = null;
   private readonly note = element('p', '', 'why');
   private readonly results = element('table', '', 'bone-results');
   private readonly through = element('input');
@@ -63,25 +65,12 @@ export class BonesPanel implements RemarkPanel {
     this.cut.append(new Option(words.boneCuts.standard, 'standard'), new Option(words.boneCuts.whole, 'whole'));
     this.cut.addEventListener('change', () => this.commit({ ...this.move, cut: this.cut.value }));
     this.cutLabel.append(element('span', words.boneCut), this.cut);
-    for (const axis of [2, 1, 0]) this.moves[axis] = this.slider('move_mm', axis, words.boneMoves[axis], mostMm, 'mm', words.boneMoveHint);
-    for (const axis of [0, 1, 2]) this.turns[axis] = this.slider('turn_deg', axis, words.boneTurns[axis], mostDeg, '°', words.boneTurnHint);
-    this.shift = new Slider({
-      name: words.boneShift, unit: 'mm', hint: words.boneShiftHint, course: linear(-mostMm, mostMm), round: tenth, low: -most, high: most,
-      live: (value) => this.live({ ...this.move, cut_shift_mm: value }),
-      done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? this.inBase.cut_shift_mm }),
-    });
     Object.assign(this.through, { type: 'checkbox', checked: remembered('bones.through') !== 'no' });
     this.through.addEventListener('change', () => {
       remember('bones.through', this.through.checked ? 'yes' : 'no');
       this.showBones();
     });
     this.throughLabel.append(this.through, element('span', words.bonesThrough));
-    const more = element('details', '', 'muscle-group');
-    more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
-    rememberFold(more, 'bones.more');
-    this.element.append(
-      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.throughLabel,
-      this.note, this.divide, this.dividing);
     this.divide.hidden = true;
     this.dividing.setAttribute('role', 'status');
     connection.on('ct', ({ measured }) => (this.divide.hidden = !measured));
@@ -89,6 +78,29 @@ export class BonesPanel implements RemarkPanel {
     state.shown.onChange(() => this.update());
     state.source.onChange(() => this.fillResults());
     state.playback.onChange(() => this.openJaw());
+  }
+
+  /** Once the keys are known. */
+  build(): void {
+    this.moves = [0, 1, 2].map((axis) => this.slider('move_mm', axis, words.boneMoves[axis], usualMm, 'mm', words.boneMoveHint));
+    this.turns = [0, 1, 2].map((axis) => this.slider('turn_deg', axis, words.boneTurns[axis], usualDeg, '°', words.boneTurnHint));
+    const shifts = this.boundsOf('cut_shift_mm');
+    this.shift = new Slider({
+      name: words.boneShift, unit: 'mm', hint: words.boneShiftHint, course: linear(...clipped(shifts, ...usualMm)), round: tenth, bounds: shifts,
+      live: (value) => this.live({ ...this.move, cut_shift_mm: value }),
+      done: (value) => this.commit({ ...this.move, cut_shift_mm: value ?? this.inBase.cut_shift_mm }),
+    });
+    const more = element('details', '', 'muscle-group');
+    more.append(element('summary', words.boneMore), ...this.turns.map((slider) => slider.element), this.cutLabel, this.shift.element);
+    rememberFold(more, 'bones.more');
+    this.element.replaceChildren(
+      element('p', words.bonesSay, 'why'), this.parts, ...[2, 1, 0].map((axis) => this.moves[axis].element), this.results, more, this.back, this.throughLabel,
+      this.note, this.divide, this.dividing);
+    this.update();
+  }
+
+  private boundsOf(column: keyof BoneMove): Bounds {
+    return this.state.boundsOf(boneKey, column);
   }
 
   /** Of a new face. */
@@ -121,7 +133,10 @@ export class BonesPanel implements RemarkPanel {
     return [];
   }
 
-  private slider(key: 'move_mm' | 'turn_deg', axis: number, name: string, length: number, unit: string, hint: string): Slider {
+  private slider(
+    key: 'move_mm' | 'turn_deg', axis: number, name: string, usual: readonly [number, number], unit: string, hint: string,
+  ): Slider {
+    const bounds = this.boundsOf(key);
     const head = element('span', '', 'bone-axis');
     const dot = element('i');
     if (key === 'move_mm') dot.style.background = axisColours[axis];
@@ -133,7 +148,7 @@ export class BonesPanel implements RemarkPanel {
       return { ...move, [key]: next };
     };
     const slider = new Slider({
-      name, unit, hint, course: linear(-length, length), round: tenth, low: -most, high: most, head,
+      name, unit, hint, course: linear(...clipped(bounds, ...usual)), round: tenth, bounds, head,
       live: (value) => this.live(withValue(value)),
       done: (value) => this.commit(withValue(value ?? this.inBase[key][axis])),
     });
@@ -189,7 +204,7 @@ export class BonesPanel implements RemarkPanel {
       this.moves[axis].set(own.move_mm[axis], base.move_mm[axis]);
       this.turns[axis].set(own.turn_deg[axis], base.turn_deg[axis]);
     }
-    this.shift.set(own.cut_shift_mm, base.cut_shift_mm);
+    this.shift?.set(own.cut_shift_mm, base.cut_shift_mm);
     this.cutLabel.hidden = part !== 'mandible';
     this.cut.value = own.cut === 'whole' ? 'whole' : 'standard';
     this.back.disabled = !this.all.some((move) => move.part === part);
@@ -221,7 +236,8 @@ export class BonesPanel implements RemarkPanel {
     view.bonesVisible = this.through.checked;
     viewer.showMarks(view);
     const moved = (moveMm: Vec3, done: boolean) => {
-      const next = { ...this.move, move_mm: moveMm.map((mm) => Math.min(Math.max(mm, -most), most)) as Vec3 };
+      const { low, high } = this.boundsOf('move_mm');
+      const next = { ...this.move, move_mm: moveMm.map((mm) => Math.min(Math.max(mm, low), high)) as Vec3 };
       if (done) this.commit(next);
       else {
         next.move_mm.forEach((value, axis) => this.moves[axis].set(value, null));

@@ -2,6 +2,7 @@
 // A list of choices in groups, with a search field above it. The arrow keys move the selection and Enter takes it. A
 // number at the end of the search text sets how much: "zygomatic right 30", "cheek left 2 ml", "lower jaw 4 mm".
 import { element } from '../page/dom';
+import { holds, type Bounds } from './bounds';
 import { words } from './words';
 
 /** How much of a choice there is. */
@@ -9,8 +10,7 @@ export interface Amount {
   unit: '%' | 'ml' | 'mm';
   /** If no number is typed. */
   usual: number;
-  least: number;
-  most: number;
+  bounds: Bounds;
 }
 
 export interface Choice {
@@ -52,7 +52,7 @@ export function readQuery(typed: string): Query {
 function amountOf({ amount: of }: Choice, { amount, unit }: Query): number | null {
   if (!of || amount === null || (unit !== '' && unit !== of.unit)) return null;
   // No millimetre and no millilitre are no change.
-  return amount >= of.least && amount <= of.most && (amount !== 0 || of.unit === '%') ? amount : null;
+  return holds(of.bounds, amount) && (amount !== 0 || of.unit === '%') ? amount : null;
 }
 
 /** The choices that have all words. */

@@ -3,13 +3,12 @@
 import { button, element } from '../page/dom';
 import type { Block, Stretch } from '../page/page_data';
 import { Refused, type Connection } from './connection';
+import { requestBounds } from './protocol';
 import { words } from './words';
 
 /** The axes of the face across which slices lie: axial, sagittal, coronal. */
 const axes = [1, 0, 2];
 const steps = 400;
-/** As --bone-hu of the program allows. */
-const [leastBoneHu, mostBoneHu] = [50, 2000];
 
 /** An image of a PNG's bytes, with an address of its own. */
 class Picture {
@@ -99,7 +98,8 @@ export class CtPanel {
   }
 
   private boneRow(): HTMLElement {
-    Object.assign(this.boneHu, { type: 'number', step: '10', min: String(leastBoneHu), max: String(mostBoneHu) });
+    const { least, most } = requestBounds.ct_bones.bone_hu;
+    Object.assign(this.boneHu, { type: 'number', step: '10', min: String(least), max: String(most) });
     const row = element('div', '', 'part');
     const label = element('label', words.ctBone);
     this.boneHu.id = label.htmlFor = 'bone-hu';

@@ -204,6 +204,7 @@ class Studio {
     at('title').title = program;
     this.tissue.build();
     this.paint.build(presets, tissues);
+    this.bones.build();
     if (this.state.muscles.length > 0) this.muscles.build();
     at<HTMLButtonElement>('what-if').disabled = false;
     this.live.greet(places);

@@ -3,9 +3,9 @@
 import type { Stretch } from '../page/page_data';
 import type { Vec3 } from '../replay/data';
 
-/** A key of a scene, as docs/scene.md lists them. */
-export interface SceneKey {
-  /** "tissue.young_kpa" */
+/** A column of a key's tables. */
+export interface SceneColumn {
+  /** "tissue.young_kpa"; of a column "young_factor". */
   name: string;
   kind: string;
   unit: string;
@@ -15,8 +15,14 @@ export interface SceneKey {
   above_low?: boolean;
   or_zero?: boolean;
   choices: string[];
-  default: unknown;
   description: string;
+}
+
+/** A key of a scene, as docs/scene.md lists them. */
+export interface SceneKey extends SceneColumn {
+  default: unknown;
+  /** Of keys whose value is a list of tables. */
+  columns?: SceneColumn[];
 }
 
 export interface Preset {

@@ -9,7 +9,8 @@ import type { Edits } from './edits';
 import type { MuscleInfo } from './messages';
 import type { Control, RemarkPanel } from './remark_places';
 import { differingGains, type Remark } from './remarks';
-import { linear, Slider } from './slider';
+import type { Slider } from './slider';
+import { strengthSlider } from './strength_slider';
 import { gainKey, type StudioState } from './studio_state';
 import { words } from './words';
 
@@ -18,8 +19,6 @@ type Side = 'R' | 'L';
 /** As in the view of the face: its right side is on the left. */
 const sides: Side[] = ['R', 'L'];
 const motionGain = 'motion.gain';
-
-const percent = linear(0, 200);
 
 /** The controls of one name that gains may have: "side_R", "zygomatic_L", "zyg_major_R". */
 interface Handle {
@@ -59,9 +58,8 @@ export class MusclesPanel implements RemarkPanel {
     this.element.replaceChildren();
     const known = this.state.keys.get(motionGain);
     if (known) {
-      this.gain = new Slider({
-        name: words.keyNames[motionGain], unit: '%', hint: known.description, course: percent, round: Math.round,
-        low: 0, high: 100 * (known.high ?? 5),
+      this.gain = strengthSlider(this.state.boundsOf(motionGain), {
+        name: words.keyNames[motionGain], hint: known.description,
         live: (value) => this.edits.live({ [motionGain]: value / 100 }),
         done: (value) => void this.edits.commit({ [motionGain]: value === null ? null : value / 100 }),
       });
@@ -147,8 +145,8 @@ export class MusclesPanel implements RemarkPanel {
     title: string, name: string, side: Side, moves: MuscleInfo[], row: HTMLElement, head: HTMLElement, mute: boolean,
   ): HTMLElement {
     const spoken = words.ofSide(title, words.sideNames[side]);
-    const slider = new Slider({
-      name: spoken, unit: '%', hint: spoken, course: percent, round: Math.round, low: 0, high: 200, bare: true,
+    const slider = strengthSlider(this.state.boundsOf(gainKey), {
+      name: spoken, hint: spoken, bare: true,
       live: (value) => this.edits.live({ [gainKey]: this.with(name, value / 100) }),
       done: (value) => this.set(this.with(name, value === null ? 1 : value / 100)),
     });

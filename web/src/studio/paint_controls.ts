@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The controls of the paint panel: they show the present patch and tool, and report each action.
 import { button, element } from '../page/dom';
-import { depthOf, factorOf, volumeOf, type Factor, type Painted, type Patch, type Row } from './patches';
-import { regionChooser } from './region_chooser';
-import { linear, logarithmic, Slider } from './slider';
 import type { Region } from './messages';
-import { volumeSlider } from './volume_slider';
+import { depthOf, factorOf, thicknessKey, volumeOf, type Factor, type Painted, type Patch, type Row } from './patches';
+import { regionChooser } from './region_chooser';
+import { factorSlider, volumeSlider } from './region_sliders';
+import { linear, logarithmic, Slider, threeDigits } from './slider';
+import type { StudioState } from './studio_state';
 import { words } from './words';
 
 export type Tool = 'turn' | 'paint' | 'erase' | 'scar';
@@ -52,7 +53,6 @@ export interface PaintShown {
 }
 
 export const ownDepthMm = 10;
-export const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
 export class PaintControls {
   readonly both = element('input');
@@ -74,15 +74,16 @@ export class PaintControls {
   private readonly ofTissue: HTMLElement[] = [];
 
   /** Fills `into`. */
-  constructor(into: HTMLElement, private readonly kinds: Kind[], regions: Region[], private readonly actions: PaintActions) {
+  constructor(into: HTMLElement, private readonly kinds: Kind[], private readonly state: StudioState, private readonly actions: PaintActions) {
     this.factors = {
       young: this.factor('young', words.paintStiffness, words.paintStiffnessHint),
       viscosity: this.factor('viscosity', words.paintViscosity, words.paintViscosityHint),
     };
-    this.volume = volumeSlider({ live: (ml) => actions.setVolume(ml, false), done: (ml) => actions.setVolume(ml ?? 0, true) });
+    this.volume = volumeSlider(state, { live: (ml) => actions.setVolume(ml, false), done: (ml) => actions.setVolume(ml ?? 0, true) });
     this.volume.element.dataset.paint = 'volume';
+    const depths = state.boundsOf(thicknessKey, 'thickness_mm');
     this.depth = new Slider({
-      name: words.paintThickness, unit: 'mm', hint: words.paintThicknessHint, course: logarithmic(1, 40), round: threeDigits, low: 1, high: 40,
+      name: words.paintThickness, unit: 'mm', hint: words.paintThicknessHint, course: logarithmic(depths.low, depths.high), round: threeDigits, bounds: depths,
       live: (value) => actions.setDepth(value, false),
       done: (value) => actions.setDepth(value ?? ownDepthMm, true),
     });
@@ -93,7 +94,7 @@ export class PaintControls {
     this.problem.setAttribute('role', 'alert');
     this.problem.hidden = true;
     into.replaceChildren(
-      this.paintedChoice(), this.ofAll, this.toolRow(), this.patchRow(), this.brushRow(), this.factorRow(), this.source, this.fillBox(regions),
+      this.paintedChoice(), this.ofAll, this.toolRow(), this.patchRow(), this.brushRow(), this.factorRow(), this.source, this.fillBox(state.regions),
       this.problem, element('p', words.paintKeys, 'why paint-keys'));
   }
 
@@ -136,8 +137,8 @@ export class PaintControls {
   }
 
   private factor(factor: Factor, name: string, hint: string): Slider {
-    const slider = new Slider({
-      name, unit: '×', hint, course: logarithmic(0.1, 10), round: threeDigits, low: 0.001, high: 1000,
+    const slider = factorSlider(this.state, `${factor}_factor`, {
+      name, hint,
       live: (value) => this.actions.setFactor(factor, value, false),
       done: (value) => this.actions.setFactor(factor, value ?? 1, true),
     });
@@ -149,7 +150,7 @@ export class PaintControls {
     key: keyof Size, name: string, unit: string, hint: string, course: ReturnType<typeof linear>, round: (value: number) => number, low: number, high: number,
   ): Slider {
     const slider = new Slider({
-      name, unit, hint, course, round, low, high,
+      name, unit, hint, course, round, bounds: { low, high, above: false },
       live: (value) => this.actions.setSize(key, value),
       done: (value) => {
         if (value !== null) this.actions.setSize(key, value);

@@ -9,10 +9,11 @@ import { BrushInHand, type Painter } from './brush';
 import type { Connection } from './connection';
 import type { Edits } from './edits';
 import { isRecord, type Preset, type StifferTissue } from './messages';
-import { PaintControls, threeDigits, type Kind, type PaintActions, type Size, type Tool } from './paint_controls';
+import { PaintControls, type Kind, type PaintActions, type Size, type Tool } from './paint_controls';
 import { PaintMap } from './paint_map';
 import { PatchEditor, type PatchView } from './patch_editor';
 import { rowsOf, type Factor, type Painted } from './patches';
+import { threeDigits } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
@@ -44,7 +45,7 @@ export class PaintPanel implements Painter, PaintActions, PatchView {
     const kinds = [...(this.scar ? [this.scar] : []), ...tissues.map(({ name, source, young_factor: factor }) => (
       { name: words.paintTissue(name.replaceAll('_', ' ')), factor, source }))];
     const both = this.controls?.both.checked ?? false;
-    this.controls = new PaintControls(this.element, kinds, this.state.regions, this);
+    this.controls = new PaintControls(this.element, kinds, this.state, this);
     this.controls.both.checked = both;
     this.chooseTool(this.tool);
     this.sync();

@@ -109,7 +109,8 @@ export class PaintedTissue {
       if (by === 1) return;
       for (let v = 0; v < out.length; ++v) {
         const part = 1 + shares[v] * (by - 1);
-        out[v] *= inverse ? 1 / part : part;
+        // A factor of 0 cannot be taken out again: nothing is left until the server's next map.
+        out[v] *= inverse ? 1 / (part || 1) : part;
       }
     };
     before.forEach(({ row }, i) => times(all[i]!, factorOf(row, factor), true));

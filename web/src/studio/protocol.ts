@@ -23,7 +23,10 @@ export interface HelloRequest {
 export interface HelloAnswer {
   /** name, version */
   program: string;
-  /** keys of a scene: name, kind, unit, range, choices, default, description */
+  /**
+   * keys of a scene: name, kind, unit, range, choices, default, description; of tables, columns: the same
+   * without default
+   */
   keys: unknown;
   /** of variants: name, summary, source, assumed, changes */
   presets: unknown;
@@ -458,6 +461,19 @@ export interface ShapeEvent {
   /** time of computing */
   seconds: number;
 }
+
+/** What the server allows of the numbers in requests. */
+export const requestBounds = {
+  set: { face: { least: 0, most: 100 }, time_s: { least: 0, most: 3600 } },
+  add_variant: { like: { least: 0, most: 100 } },
+  remove_variant: { face: { least: 1, most: 100 } },
+  rename_variant: { face: { least: 1, most: 100 } },
+  live_start: { face: { least: 0, most: 100 } },
+  live_drawn: { frame: { least: 0, most: 4503599627370496 } },
+  live_take: { from_s: { least: 0, most: 3600 }, to_s: { least: 0, most: 3600 } },
+  ct_bones: { bone_hu: { least: 50, most: 2000 } },
+  ct_slice: { axis: { least: 0, most: 2 }, share: { least: 0, most: 1 } },
+} as const;
 
 /** Requests of the page and their answers. */
 export interface Requests {

@@ -7,14 +7,14 @@ import { menuOf } from '../page/menu';
 import { namedChanges, type NamedChange } from './brief_name';
 import type { Edits } from './edits';
 import { isRecord } from './messages';
-import { linear, Slider } from './slider';
+import type { Slider } from './slider';
+import { strengthSlider } from './strength_slider';
 import { gainKey, type StudioState } from './studio_state';
 import type { WhatIf } from './what_if';
 import { words } from './words';
 
 const regionKey = 'tissue.region';
 const boneKey = 'surgery.bone';
-const percent = linear(0, 200);
 
 export class Question {
   private built = '';
@@ -89,8 +89,8 @@ export class Question {
     const head = element('span', '', 'change-head');
     head.append(this.chooser(button(of, 'change-chip opens', () => {}), gain), words.questionAt);
     const set = (value: number) => this.edits.commit({ [gainKey]: { ...this.edits.gains, [gain]: value } });
-    const slider = new Slider({
-      name: words.questionStrength(of), unit: '%', hint: '', course: percent, round: Math.round, low: 0, high: 200, head,
+    const slider = strengthSlider(this.state.boundsOf(gainKey), {
+      name: words.questionStrength(of), hint: '', head,
       live: (value) => this.edits.live({ [gainKey]: { ...this.edits.gains, [gain]: value / 100 } }),
       done: (value) => {
         if (value === null) this.leave({ key: gainKey, text: of, gain });

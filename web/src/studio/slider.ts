@@ -2,6 +2,7 @@
 // The control of a value: a slider, a number field where there is room, and a reset button.
 import { element } from '../page/dom';
 import { number } from '../page/format';
+import { holds, type Bounds } from './bounds';
 import type { Control } from './remark_places';
 import { words } from './words';
 
@@ -22,6 +23,8 @@ export const logarithmic = (low: number, high: number): Course => ({
   of: (value) => Math.log(Math.max(value, low) / low) / Math.log(high / low),
 });
 
+export const threeDigits = (value: number): number => Number(value.toPrecision(3));
+
 export interface SliderOptions {
   /** The accessible name; also visible unless `bare`. */
   name: string;
@@ -30,9 +33,8 @@ export interface SliderOptions {
   course: Course;
   /** Rounds what the slider gives. */
   round(value: number): number;
-  /** Allowed for the digits. */
-  low: number;
-  high: number;
+  /** Of the digits. */
+  bounds: Bounds;
   /** What an arrow key changes on a linear slider; not given: a thousandth of its length. */
   step?: number;
   /** Only the slider, with its value behind it. */
@@ -63,11 +65,11 @@ export class Slider {
   private rest = 0;
 
   constructor(private readonly options: SliderOptions) {
-    const { name, unit, hint, bare, course, step } = options;
+    const { name, unit, hint, bare, course, step, bounds } = options;
     this.steps = step === undefined ? 1000 : Math.round((course.at(1) - course.at(0)) / step);
     const id = `slider-${++count}`;
     Object.assign(this.range, { type: 'range', id, min: '0', max: String(this.steps), step: '1', title: hint });
-    Object.assign(this.digits, { type: 'number', min: String(options.low), max: String(options.high), step: 'any' });
+    Object.assign(this.digits, { type: 'number', min: String(bounds.low), max: String(bounds.high), step: 'any' });
     this.digits.setAttribute('aria-label', words.number(name, unit));
     Object.assign(this.back, { type: 'button', title: words.reset(name) });
     this.back.setAttribute('aria-label', words.reset(name));
@@ -156,7 +158,7 @@ export class Slider {
         this.restore();
         return;
       }
-      if (!(value >= options.low && value <= options.high)) {
+      if (!holds(options.bounds, value)) {
         this.refuse(value);
         return;
       }
@@ -177,8 +179,8 @@ export class Slider {
   }
 
   private refuse(value: number): void {
-    const { low, high } = this.options;
-    this.digits.setCustomValidity(`${number(value)}: ${number(low)} – ${number(high)}`);
+    const { low, high, above } = this.options.bounds;
+    this.digits.setCustomValidity(`${number(value)}: ${above ? '> ' : ''}${number(low)} – ${number(high)}`);
     this.digits.reportValidity();
   }
 

@@ -6,6 +6,7 @@ import type { Face } from '../replay/data';
 import { Playback } from '../replay/playback';
 import { Shown } from '../replay/shown';
 import { changeWords } from '../replay/change_words';
+import type { Bounds } from './bounds';
 import { words } from './words';
 import { isRecord, type MuscleInfo, type Region, type SceneKey, type SceneNow, type Values } from './messages';
 
@@ -52,6 +53,14 @@ export class StudioState {
   /** Strengths of muscles that a face changes: muscles.gain. */
   gainsOf(face: number): Record<string, number> {
     return gainsIn(this.valuesOf(face)[gainKey]);
+  }
+
+  /** What the scene allows of a key's numbers, or of those in a column of its tables, in their unit. */
+  boundsOf(key: string, column = ''): Bounds {
+    const described = this.keys.get(key);
+    const one = column ? described?.columns?.find(({ name }) => name === column) : described;
+    if (!one) throw new Error(`not described: ${key} ${column}`);
+    return { low: one.low ?? -Infinity, high: one.high ?? Infinity, above: one.above_low ?? false };
   }
 
   /** The place of the variant with this name; 0, base, for the empty name. */

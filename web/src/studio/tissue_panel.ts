@@ -7,10 +7,10 @@ import type { Edits } from './edits';
 import { isRecord, type SceneKey } from './messages';
 import type { Control, RemarkPanel } from './remark_places';
 import { regionChooser } from './region_chooser';
+import { factorSlider, volumeSlider } from './region_sliders';
 import type { Remark } from './remarks';
-import { linear, logarithmic, Slider, type Course, type SliderOptions } from './slider';
+import { linear, logarithmic, Slider, threeDigits, type Course, type SliderOptions } from './slider';
 import type { StudioState } from './studio_state';
-import { volumeSlider } from './volume_slider';
 import { words } from './words';
 
 const keys = ['tissue.young_kpa', 'tissue.viscosity_pa_s', 'tissue.poisson', 'tissue.density_kg_m3'];
@@ -20,8 +20,6 @@ type Row = Record<string, unknown>;
 /** The keys of a region that this panel sets, each with the value at which it changes nothing. */
 const neutral = { young_factor: 1, volume_ml: 0 };
 type PartKey = keyof typeof neutral;
-
-const threeDigits = (value: number): number => Number(value.toPrecision(3));
 
 /** A decade to either side of the default within the range where that spans decades; else the range. */
 function courseOf({ low = 0, high = 1, default: given }: SceneKey): Course {
@@ -79,7 +77,7 @@ export class TissuePanel implements RemarkPanel {
   private add(key: SceneKey, course: Course, { still = false }): Slider {
     const slider = new Slider({
       name: words.keyNames[key.name] ?? key.name, unit: key.unit.replace('^3', '³'), hint: key.description, course,
-      round: threeDigits, low: key.low ?? 0, high: key.high ?? Infinity,
+      round: threeDigits, bounds: this.state.boundsOf(key.name),
       live: (value) => {
         if (!still) this.edits.live({ [key.name]: value });
       },
@@ -97,12 +95,9 @@ export class TissuePanel implements RemarkPanel {
     this.part.onchange = () => this.update();
     const label = element('label', '', 'part');
     label.append(element('span', words.regionChoose), this.part);
-    const stiffness = new Slider({
-      name: words.regionStiffness, unit: '×', hint: words.regionHint, course: logarithmic(0.1, 10), round: threeDigits,
-      low: 0.001, high: 1000, ...this.setting('young_factor'),
-    });
+    const stiffness = factorSlider(this.state, 'young_factor', { name: words.regionStiffness, hint: words.regionHint, ...this.setting('young_factor') });
     stiffness.element.dataset.key = regions;
-    const volume = volumeSlider(this.setting('volume_ml'));
+    const volume = volumeSlider(this.state, this.setting('volume_ml'));
     volume.element.dataset.key = `${regions}.volume_ml`;
     this.ofPart.set('young_factor', stiffness).set('volume_ml', volume);
     const box = element('div', '', 'region');
@@ -144,7 +139,8 @@ export class TissuePanel implements RemarkPanel {
 
   /** All faces share one mesh, which takes a while: no live changes, and none in variants. */
   private addThickness(key: SceneKey): void {
-    const slider = this.add(key, linear(Math.max(key.low ?? 1, 1), key.high ?? 40), { still: true });
+    const { low, high } = this.state.boundsOf(key.name);
+    const slider = this.add(key, linear(low, high), { still: true });
     const label = element('label', '', 'check');
     Object.assign(this.auto, { type: 'checkbox' });
     this.auto.addEventListener('change', () => {

@@ -6,6 +6,7 @@ import { upper } from '../page/format';
 import { menuOf, type Menu } from '../page/menu';
 import { volumeWords } from '../replay/surgery';
 import { boneKey, boneParts, moveOf, movesOf, withMove } from './bone_moves';
+import { inPercent } from './bounds';
 import { briefName } from './brief_name';
 import { fillChooser, type Amount, type Choice } from './chooser';
 import type { Edits } from './edits';
@@ -16,11 +17,8 @@ import { tryChange } from './try_change';
 import { words } from './words';
 
 const regionKey = 'tissue.region';
-/** A weakened muscle, of its activation in base. */
-const strength: Amount = { unit: '%', usual: 50, least: 0, most: 200 };
-const movement: Amount = { unit: 'mm', usual: 6, least: -30, most: 30 };
-/** A syringe of filler. */
-const volume: Amount = { unit: 'ml', usual: 1, least: -30, most: 30 };
+/** What a choice sets where no number is typed: a weakened muscle, a moved bone, a syringe of filler. */
+const usual = { percent: 50, mm: 6, ml: 1 };
 type Take = (gain: string, percent: number) => void;
 
 export class WhatIf {
@@ -40,12 +38,12 @@ export class WhatIf {
   /** Fills a sheet with what else the face shown may change; `instead`: in the place of that strength. */
   fillChange(sheet: HTMLElement, close: () => void, instead: string | null): void {
     const { gains } = this.edits;
-    const usual = instead ? Math.round(100 * (gains[instead] ?? 1)) : strength.usual;
+    const present = instead ? Math.round(100 * (gains[instead] ?? 1)) : usual.percent;
     const take: Take = (gain, percent) => {
       const { [instead ?? '']: _before, ...kept } = this.edits.gains;
       void this.edits.commit({ [gainKey]: { ...kept, [gain]: percent / 100 } });
     };
-    fillChooser(sheet, this.strengths(take, usual).flat(), close);
+    fillChooser(sheet, this.strengths(take, present).flat(), close);
   }
 
   /** Moves the keyboard focus to a face's tab. */
@@ -63,12 +61,13 @@ export class WhatIf {
   }
 
   /** What muscles.gain may name: sides with branches, and single muscles. */
-  private strengths(take: Take, usual = strength.usual): Choice[][] {
+  private strengths(take: Take, percent = usual.percent): Choice[][] {
     const { muscles } = this.state;
+    const amount: Amount = { unit: '%', usual: percent, bounds: inPercent(this.state.boundsOf(gainKey)) };
     const both = (group: string, stem: string, called: (side: string) => string): Choice[] =>
       (['R', 'L'] as const).map((side) => ({
-        group, value: `${stem}_${side}`, text: upper(called(words.sideNames[side])), detail: words.atPercent, amount: { ...strength, usual },
-        take: (percent) => take(`${stem}_${side}`, percent),
+        group, value: `${stem}_${side}`, text: upper(called(words.sideNames[side])), detail: words.atPercent, amount,
+        take: (chosen) => take(`${stem}_${side}`, chosen),
       }));
     const branches = [...new Set(muscles.map(({ branch }) => branch))].flatMap((branch) => {
       const brief = words.branchNames[branch] ?? upper(branch);
@@ -96,21 +95,23 @@ export class WhatIf {
 
   private boneChoices(): Choice[] {
     const inBase = movesOf(this.state.valuesOf(0)[boneKey]);
+    const amount: Amount = { unit: 'mm', usual: usual.mm, bounds: this.state.boundsOf(boneKey, 'move_mm') };
     return boneParts.map((part) => ({
-      group: words.boneGroup, value: `bone ${part}`, text: words.boneParts[part], detail: words.boneAmount, amount: movement,
+      group: words.boneGroup, value: `bone ${part}`, text: words.boneParts[part], detail: words.boneAmount, amount,
       take: (mm) => tryChange(() => this.addSurgery({ [boneKey]: withMove(inBase, { ...moveOf([], part), move_mm: [0, 0, mm] }) }, this.showBones)),
     }));
   }
 
   private volumeChoices(): Choice[] {
     const inBase = this.state.valuesOf(0)[regionKey];
+    const amount: Amount = { unit: 'ml', usual: usual.ml, bounds: this.state.boundsOf(regionKey, 'volume_ml') };
     const before = Array.isArray(inBase) ? inBase.filter(isRecord) : [];
     return this.state.regions.flatMap(({ name }) => sidesAndBoth.map((side) => {
       const region = side ? `${name}_${side}` : name;
       const others = before.filter((row) => row.name !== region);
       const own = before.find((row) => row.name === region) ?? { name: region };
       return {
-        group: words.volumeGroup, value: `volume ${region}`, text: nameOfRegion(name, side), detail: volumeWords, amount: volume,
+        group: words.volumeGroup, value: `volume ${region}`, text: nameOfRegion(name, side), detail: volumeWords, amount,
         take: (ml: number) => tryChange(() => this.addSurgery({ [regionKey]: [...others, { ...own, volume_ml: ml }] }, () => this.showTissue(region))),
       };
     }));
