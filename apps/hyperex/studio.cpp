@@ -34,7 +34,8 @@ void add_studio(CLI::App& program) {
   auto options = std::make_shared<studio::StudioOptions>();
   options->save_into = ".";
   auto mirrored = std::make_shared<std::string>();
-  auto no_browser = std::make_shared<bool>(false), no_cache = std::make_shared<bool>(false);
+  auto no_browser = std::make_shared<bool>(false), no_cache = std::make_shared<bool>(false),
+       no_bands = std::make_shared<bool>(false);
   CLI::App* command = program.add_subcommand(
       "studio",
       "Open a face in the browser, change its tissue and muscles, and see the effect at once");
@@ -54,6 +55,9 @@ void add_studio(CLI::App& program) {
       ->option_text("yes|no");
   command->add_flag("--no-browser", *no_browser, "Print the address, but do not open a browser");
   command->add_flag("--no-cache", *no_cache, "Neither keep nor use results of earlier runs");
+  command->add_flag("--no-bands", *no_bands,
+                    "Do not compute error bands of curves while nothing else is to do, which keeps "
+                    "the processors idle, as on battery");
   command->footer("Example: hyperex studio examples/demo.toml");
   command->callback([=] {
     take_library_memory();
@@ -61,6 +65,7 @@ void add_studio(CLI::App& program) {
     check_device(options->device, *mirrored);
     options->mirrored = *mirrored == "yes";
     options->open_browser = !*no_browser;
+    options->bands = !*no_bands;
     options->version = version();
     if (!*no_cache) options->kept = KeptResults(user_cache_folder());
     studio::run_studio(*options);

@@ -105,6 +105,7 @@ SessionOptions session_options(const StudioOptions& options, const SessionFolder
           .program = "Hyperex " + options.version,
           .device = options.device,
           .mirrored = options.mirrored,
+          .bands = options.bands,
           .kept = options.kept,
           .ending = [&queue] { return queue.closed(); }};
 }

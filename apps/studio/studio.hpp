@@ -17,6 +17,7 @@ struct StudioOptions {
   bool mirrored = false;  ///< its pictures are mirrored
   std::string version;
   KeptResults kept;
+  bool bands = true;  ///< error bands are computed while nothing else is to do
 };
 
 /// Serves until it is interrupted. Prints the address on standard output. Throws InputError where

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A scene as it is, and the same pull in other tissue:  what_if SCENE.toml KEY VALUE OUT.glb
+// A face as it is, and the same pull in other tissue:
+//   what_if SCENE.toml KEY VALUE OUT.glb    or    what_if SCAN MOTION KEY VALUE OUT.glb
 #include <cstdio>
 #include <cstdlib>
 #include <hyperex/hyperex.hpp>
@@ -7,15 +8,16 @@
 using namespace hyperex;
 
 int main(int argc, char** argv) try {
-  if (argc != 5) {
-    std::fprintf(stderr, "what_if SCENE.toml KEY VALUE OUT.glb\n");
+  if (argc != 5 && argc != 6) {
+    std::fprintf(stderr, "what_if SCENE.toml|SCAN MOTION KEY VALUE OUT.glb\n");
     return 2;
   }
-  FaceSession face(argv[1]);  // or face(read_face("me.ply"), read_motion("me.csv"))
+  FaceSession face =
+      argc == 6 ? FaceSession(read_face(argv[1]), read_motion(argv[2])) : FaceSession(argv[1]);
   const auto before = face.run();
-  face.set(argv[2], std::atof(argv[3]));  // where forces drive, they are kept
+  face.set(argv[argc - 3], std::atof(argv[argc - 2]));  // where forces drive, they are kept
   const auto after = face.run();
-  write_glb(argv[4], after);
+  write_glb(argv[argc - 1], after);
   for (const auto& result : {before, after})
     for (const auto& pair : result.measures().excursions.pairs)
       if (pair.name == "cheilion")

@@ -25,7 +25,10 @@ build/stiffness_sweep > sweep.csv
 build/own_mesh > own.txt
 build/finite_strain > finite.txt
 build/what_if "$source/examples/mouth_open.toml" tissue.young_kpa 300 after.glb > what_if.txt
-cat first.txt sweep.csv
+build/what_if "$source/examples/stiff_cheek.toml" "tissue.region[0].young_factor" 1 cheek.glb > cheek.txt
+"$prefix/bin/hyperex" sample sample > sample.txt
+build/what_if sample/second_face.ply "$demo/motion.csv" tissue.young_kpa 300 second.glb > second.txt
+cat first.txt sweep.csv cheek.txt second.txt
 
 # The same numbers as those of `hyperex run examples/mouth_open.toml`.
 read -r left right < <(awk -F, '$1 == "cheilion" { printf "%.2f %.2f\n", $2, $3 }' "$demo/excursions.csv")
@@ -34,6 +37,10 @@ grep -qx "excursion of the corners: left $left mm, right $right mm" first.txt ||
 grep -qx "base: corners of the mouth left $left mm, right $right mm" what_if.txt ||
   { cat what_if.txt; said "the session's corners do not travel $left and $right mm"; }
 [[ $(wc -l < what_if.txt) == 2 && -s after.glb ]] || said "the session gave no second face"
+for pair in cheek second; do
+  [[ $(sed 's/.*: //' $pair.txt | sort -u | wc -l) == 2 && -s $pair.glb ]] ||
+    said "the session's change of the $pair's face changes nothing"
+done
 # Five rows; stiffer tissue does not give the same.
 [[ $(wc -l < sweep.csv) == 6 ]] || said "the sweep is not whole"
 [[ $(tail -n +2 sweep.csv | cut -d, -f2 | sort -u | wc -l) == 5 ]] || said "stiffness changes nothing"

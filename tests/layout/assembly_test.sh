@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # A run is put together by session::FaceSession alone: program, studio, Python, studies and
-# benchmarks call it.
+# benchmarks call it. A further recording of an estimate is read, not run.
 #   assembly_test.sh SOURCE_FOLDER
 set -euo pipefail
 cd "$1"
-callers=(apps python bench src/hyperex/run src/hyperex/study)
+callers=(apps python bench src/hyperex/{estimate,uncertainty,rig,run,visits,study})
 status=0
 if grep -rnE '(^|[^_a-z])(read_inputs|prepare_face|simulation_options|obstacles_of|teeth_of|simulate_twin|prepare_variants|drive_choice|prepare_with_kept_order)\(|TissueFields' \
-  "${callers[@]}" --include='*.[ch]pp' | grep -v '^apps/studio/session_edits.cpp:.*drive_choice('; then
+  "${callers[@]}" --include='*.[ch]pp' | grep -vE '^(apps/studio/session_edits.cpp:.*drive_choice|src/hyperex/estimate/further_recordings.cpp:.*read_inputs)\('; then
   echo "expected a FaceSession (session/face_session.hpp)"
   status=1
 fi

@@ -187,6 +187,12 @@ const std::vector<NotedScene>& noted_scenes() {
       {"tissue.volume_changed", false,
        "drive.by=\"displacement\"\nmotion.gain=4\ntissue.strain=\"finite\"\ntime.end_s=0.5",
        press_the_lips},
+      {"solver.reduced_not_converged", false, "drive.by=\"displacement\"\nsolver.tolerance=1e-9",
+       press_the_lips},
+      {"contact.no_equilibrium", false,
+       "drive.by=\"displacement\"\nmotion.gain=5\ntissue.strain=\"finite\"\ncontact.lips=true\n"
+       "time.end_s=0.5",
+       press_the_lips},
       {"drive.points_off", false, "drive.points=\"all\"\ntime.end_s=0.5", press_the_lips},
       {"output.glb_coarse", false,
        "output.glb=true\noutput.glb_tolerance_mm=0.01\noutput.glb_max_mb=0.1\ntime.end_s=0.5\n"
@@ -209,10 +215,8 @@ const std::vector<NotedScene>& noted_scenes() {
 
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
-      {"contact.no_equilibrium", "none: no scene is known to cause it"},
-      {"forces.found_anew", "MuscleSimulatorOfAFace, tissue changed without hold_load()"},
-      {"solver.reduced_not_converged", "SimulationOfAFace, a basis that stops growing"},
-      {"symmetry.plane_of_landmarks", "Midsagittal.ASurfaceOfOneSideLeavesItToTheLandmarks"},
+      {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
+      {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };
   return all;
 }

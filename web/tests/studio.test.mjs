@@ -59,7 +59,7 @@ describe('the studio', { skip, concurrency: false }, () => {
   after(() => browser?.close());
 
   test('what if the right side had 70 % of its strength: beside base, in millimetres, as a picture, as a scene that runs', async (t) => {
-    const studio = await startStudio();
+    const studio = await startStudio([], { bands: true });
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
     assert.equal(new URL(page.url()).hash, '', 'the token is gone from the address');
@@ -136,7 +136,7 @@ describe('the studio', { skip, concurrency: false }, () => {
   });
 
   test('a slider makes a face beside base, moves it while it is pulled and changes it when let go; undo and redo', async (t) => {
-    const studio = await startStudio();
+    const studio = await startStudio([], { bands: true });
     t.after(() => studio.stop());
     const { page, complaints, close } = await openStudio(browser, studio.address);
     await page.click('#tab-tissue');

@@ -32,11 +32,12 @@ export async function run(args, { cwd, env = {} }) {
   return out;
 }
 
-/** Starts `hyperex studio` with these arguments. What it keeps lies in its folder. */
-export async function startStudio(args = [], { port, folder: given } = {}) {
+/** Starts `hyperex studio` with these arguments. What it keeps lies in its folder. Error bands, which keep the
+ *  processors busy beside the browser, are computed only for tests that look at them. */
+export async function startStudio(args = [], { port, folder: given, bands = false } = {}) {
   const folder = given ?? (await mkdtemp(join(tmpdir(), 'hyperex-studio-')));
   const env = { XDG_STATE_HOME: join(folder, 'state'), XDG_CACHE_HOME: join(folder, 'cache') };
-  const child = spawn(program(), ['studio', '--no-browser', ...(port ? ['--port', String(port)] : []), ...args], {
+  const child = spawn(program(), ['studio', '--no-browser', ...(bands ? [] : ['--no-bands']), ...(port ? ['--port', String(port)] : []), ...args], {
     cwd: folder, env: { ...process.env, ...env }, stdio: ['ignore', 'pipe', 'pipe'],
   });
   let err = '';

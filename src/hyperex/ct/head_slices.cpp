@@ -16,15 +16,15 @@ constexpr render::Colour kSkinLine{0.98, 0.75, 0.20}, kSkullLine{0.20, 0.85, 0.9
 constexpr double kPixelsPer_m = 2200, kMargin_m = 0.008;
 
 /// How a slice across each axis of the face is seen.
-struct View {
+struct SliceView {
   int right_axis, up_axis;
   const char* name;
   const char* letter;
   const char* seen;
 };
-constexpr std::array<View, 3> kViews = {{{2, 1, "sagittal", "x", "front at the right"},
-                                         {0, 2, "axial", "y", "from below"},
-                                         {0, 1, "coronal", "z", "from the front"}}};
+constexpr std::array<SliceView, 3> kSliceViews = {{{2, 1, "sagittal", "x", "front at the right"},
+                                                   {0, 2, "axial", "y", "from below"},
+                                                   {0, 1, "coronal", "z", "from the front"}}};
 
 /// In white, as the picture is dark.
 render::Image with_sides(const render::Image& image) {
@@ -48,7 +48,7 @@ HeadSlices::HeadSlices(const Volume& volume, const TriMesh& skin, const BoneSurf
 }
 
 render::Image HeadSlices::picture(int axis, double place_m) const {
-  const View& view = kViews[std::size_t(axis)];
+  const SliceView& view = kSliceViews[std::size_t(axis)];
   SlicePlane plane;
   plane.right = Vec3::Unit(view.right_axis), plane.up = Vec3::Unit(view.up_axis);
   plane.middle = middle_m();
@@ -60,7 +60,7 @@ render::Image HeadSlices::picture(int axis, double place_m) const {
 }
 
 std::string HeadSlices::caption(int axis, double place_m) {
-  const View& view = kViews[std::size_t(axis)];
+  const SliceView& view = kSliceViews[std::size_t(axis)];
   // Without a negative zero.
   return fmt::format("{}, {} = {:.0f} mm, {}", view.name, view.letter,
                      std::round(1e3 * place_m) + 0.0, view.seen);

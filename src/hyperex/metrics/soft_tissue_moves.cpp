@@ -47,7 +47,7 @@ void add_ratio(const std::vector<simulate::BoneMove>& moves, SoftTissueMove& of)
   }
 }
 
-std::string cell(double value) {
+std::string three_decimals(double value) {
   return std::isfinite(value) ? fmt::format("{:.3f}", value) : "";
 }
 
@@ -152,12 +152,12 @@ void write_soft_tissue_csv(const std::filesystem::path& file,
     for (const SoftTissueMove& m : moves) {
       out << m.landmark;
       for (const Vec3& v : {m.at_rest, m.expression_before, m.expression_after})
-        for (const double mm : v) out << ',' << cell(mm);
-      out << ',' << cell(m.ratio);
+        for (const double mm : v) out << ',' << three_decimals(mm);
+      out << ',' << three_decimals(m.ratio);
       for (const double value :
            {m.published ? m.published->usual : NAN, m.published ? m.published->low : NAN,
             m.published ? m.published->high : NAN})
-        out << ',' << cell(value);
+        out << ',' << three_decimals(value);
       out << '\n';
     }
   });

@@ -13,14 +13,14 @@ namespace {
 
 using Eigen::VectorXd;
 
-const Vec3 kSize{0.04, 0.03, 0.02};
+const Vec3 kBarSize{0.04, 0.03, 0.02};
 
 Eigen::Matrix3d turn_about(const Vec3& axis, double angle_rad) {
   return Eigen::AngleAxisd(angle_rad, axis.normalized()).toRotationMatrix();
 }
 
 struct Bar {
-  test::BoxMesh box = test::box_mesh({4, 3, 2}, kSize, 0.1);
+  test::BoxMesh box = test::box_mesh({4, 3, 2}, kBarSize, 0.1);
   Assembler assembler{box.nodes, box.tets, ElementKind::tet4_star};
 
   /// Displacement of all unknowns by the linear map x -> a x.
@@ -74,7 +74,7 @@ TEST(FactorTurns, TurnsWholeNodesBySinceTheFactor) {
 TEST(FactorTurns, EndsThatMoveByThemselvesAreFollowedWithAnOldFactor) {
   const Bar bar;
   const std::vector<int> ends = test::unknowns_where(
-      bar.box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > kSize.x() - 1e-9; });
+      bar.box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > kBarSize.x() - 1e-9; });
   FiniteStrain form(bar.assembler, test::uniform_material(bar.box.tets.rows(), 2e4, 0.45, 0, 1000),
                     {});
   FiniteNewton newton(form, ends, {});
@@ -100,7 +100,7 @@ TEST(FactorTurns, EndsThatMoveByThemselvesAreFollowedWithAnOldFactor) {
 TEST(FactorTurns, OneFactorServesABodyThatTurns) {
   const Bar bar;
   const std::vector<int> ends = test::unknowns_where(
-      bar.box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > kSize.x() - 1e-9; });
+      bar.box.nodes, [](const Vec3& p) { return p.x() < 1e-9 || p.x() > kBarSize.x() - 1e-9; });
   FiniteStrain form(bar.assembler, test::uniform_material(bar.box.tets.rows(), 2e4, 0.45, 0, 1000),
                     {});
   FiniteNewtonOptions options;

@@ -16,11 +16,11 @@ namespace hyperex::fem {
 namespace {
 using Eigen::VectorXd;
 
-test::BoxMesh box() {
+test::BoxMesh grown_box() {
   return test::box_mesh({4, 3, 3}, {0.04, 0.03, 0.02}, 0.15);
 }
 
-std::vector<DilatationGroups> all_groups(const test::BoxMesh& mesh) {
+std::vector<DilatationGroups> both_groups(const test::BoxMesh& mesh) {
   return {DilatationGroups{}, disjoint_stars(mesh.nodes.rows(), mesh.tets)};
 }
 
@@ -87,12 +87,12 @@ VectorXd at_finite_strain(const Assembler& assembler, const test::BoxMesh& mesh,
 }
 
 TEST(Growth, OfAFreeBodyIsFreeOfStress) {
-  const auto mesh = box();
+  const auto mesh = grown_box();
   const Material material = test::varied_material(mesh.tets.rows());
   const Vec3 stretch(1.2, 0.9, 1.3);
   const Growths growth(std::size_t(mesh.tets.rows()), stretch.asDiagonal());
   const Vec3 low = mesh.nodes.colwise().minCoeff();
-  for (const DilatationGroups& groups : all_groups(mesh)) {
+  for (const DilatationGroups& groups : both_groups(mesh)) {
     const Assembler assembler(mesh.nodes, mesh.tets, groups);
     const VectorXd small = at_small_strain(assembler, mesh, material, growth);
     const Assembler grown = assembler.grown(growth);
@@ -115,10 +115,10 @@ TEST(Growth, OfAFreeBodyIsFreeOfStress) {
 }
 
 TEST(Growth, ForceIsTheGradientOfTheEnergyAtSmallStrain) {
-  const auto mesh = box();
+  const auto mesh = grown_box();
   const Material material = test::varied_material(mesh.tets.rows());
   const Growths growth = uneven(mesh, 1e-6);
-  for (const DilatationGroups& groups : all_groups(mesh)) {
+  for (const DilatationGroups& groups : both_groups(mesh)) {
     const Assembler assembler(mesh.nodes, mesh.tets, groups);
     const VectorXd force = assembler.growth_force(material, growth);
     const Assembler grown = assembler.grown(growth);
@@ -134,10 +134,10 @@ TEST(Growth, ForceIsTheGradientOfTheEnergyAtSmallStrain) {
 /// The mean stress of a body that no force acts on is zero. With one stiffness the mean strain is
 /// therefore that of the growth, whatever its place.
 TEST(Growth, OfAPartAddsItsVolumeToAFreeBodyOfOneStiffness) {
-  const auto mesh = box();
+  const auto mesh = grown_box();
   const Material material = test::uniform_material(mesh.tets.rows(), 2e5, 0.4, 0, 1000);
   const VectorXd none = VectorXd::Zero(mesh.nodes.size());
-  for (const DilatationGroups& groups : all_groups(mesh)) {
+  for (const DilatationGroups& groups : both_groups(mesh)) {
     const Assembler assembler(mesh.nodes, mesh.tets, groups);
     for (const double size : {1e-3, 0.2}) {
       const Growths growth = uneven(mesh, size);
@@ -160,10 +160,10 @@ TEST(Growth, OfAPartAddsItsVolumeToAFreeBodyOfOneStiffness) {
 }
 
 TEST(Growth, HasItsDerivativesAtFiniteStrain) {
-  const auto mesh = box();
+  const auto mesh = grown_box();
   const Material material = test::varied_material(mesh.tets.rows());
   const Growths growth = uneven(mesh, 0.3);
-  for (const DilatationGroups& groups : all_groups(mesh)) {
+  for (const DilatationGroups& groups : both_groups(mesh)) {
     const Assembler grown = Assembler(mesh.nodes, mesh.tets, groups).grown(growth);
     for (const Hyperelastic& law : test::all_laws()) {
       FiniteStrain form(grown, material, law);
@@ -244,7 +244,7 @@ TEST(Growth, OfABallWithinABallIsEshelbys) {
 }
 
 TEST(Growth, RefusesTensorsThatAreNone) {
-  const auto mesh = box();
+  const auto mesh = grown_box();
   const Assembler assembler(mesh.nodes, mesh.tets, DilatationGroups{});
   const auto of_one = [&](const Eigen::Matrix3d& tensor) {
     Growths out(std::size_t(mesh.tets.rows()), Eigen::Matrix3d::Identity());

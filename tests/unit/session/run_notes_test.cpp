@@ -61,6 +61,16 @@ TEST(RunWarnings, TheReportsOwnNotesComeFirst) {
                           is_warning("lips.pass_through", "contact.lips")));
 }
 
+TEST(SymmetryNotes, SayWhyThePlaneIsTheLandmarks) {
+  metrics::SymmetryMeasures symmetry;
+  EXPECT_THAT(symmetry_notes(symmetry, ""), ElementsAre());
+  symmetry.map.emplace();
+  EXPECT_THAT(symmetry_notes(symmetry, ""), ElementsAre()) << "the surface has refined it";
+  symmetry.map->plane.note = "too little of the reflected face lies near the face";
+  EXPECT_THAT(symmetry_notes(symmetry, ""),
+              ElementsAre(AllOf(is_warning("symmetry.plane_of_landmarks"), says("too little"))));
+}
+
 TEST(NotesOnContact, SayThatNothingTouchesOnlyWhereContactIsOn) {
   simulate::SimulationReport report;
   simulate::ContactOptions contact;
