@@ -7,16 +7,12 @@
 #include "hyperex/session/thinned_scan.hpp"
 #include "options_class.hpp"
 #include "performance.hpp"
+#include "refuse.hpp"
 
 namespace hyperex::python {
 namespace {
 
 using Path = std::filesystem::path;
-
-[[noreturn]] void refuse(const std::string& key, const std::string& value,
-                         const std::string& expected) {
-  throw InputError(InputProblem{{}, 0, key, value, expected});
-}
 
 report::GlbReport glb(const Path& file, const RunResult& run, const io::Scan& scan,
                       double tolerance_m, double max_mb) {

@@ -14,6 +14,7 @@
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
+#include "refuse.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -22,11 +23,6 @@ using motion::Motion;
 using Path = std::filesystem::path;
 using Names = std::vector<std::string>;
 using Array = py::array_t<double, py::array::c_style | py::array::forcecast>;
-
-[[noreturn]] void refuse(const std::string& key, const std::string& value,
-                         const std::string& expected) {
-  throw InputError(InputProblem{{}, 0, key, value, expected});
-}
 
 Motion make_motion(const Names& names, const std::vector<double>& time_s, const Array& positions_m,
                    const std::string& source) {
