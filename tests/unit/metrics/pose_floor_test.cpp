@@ -124,7 +124,7 @@ TEST(PoseFloor, ASymmetricSmileOfAMovingHeadIsRarelyCalledAsymmetric) {
   std::mt19937 random(3);
   std::normal_distribution<double> normal;
   // A second at rest, and a smile of two.
-  constexpr int samples = 90, still = 30;
+  constexpr int instants = 90, still = 30;
   constexpr double rate_hz = 30;
   const int draws = 2 * hyperex::test::draws();
   int decided = 0, found = 0, without_pose = 0;
@@ -132,9 +132,9 @@ TEST(PoseFloor, ASymmetricSmileOfAMovingHeadIsRarelyCalledAsymmetric) {
     const bool weak = i % 2;  // every second one by 1.5 mm on the right
     motion::Motion seen = rest;
     const Vec3 axis = Vec3::NullaryExpr([&] { return normal(random); }).normalized();
-    for (int k = 0; k < samples; ++k) {
+    for (int k = 0; k < instants; ++k) {
       const double course =
-          k < still ? 0 : (1 - std::cos(2 * M_PI * (k - still) / (samples - 1 - still))) / 2;
+          k < still ? 0 : (1 - std::cos(2 * M_PI * (k - still) / (instants - 1 - still))) / 2;
       Eigen::Isometry3d head = Eigen::Isometry3d::Identity();
       head.rotate(Eigen::AngleAxisd(0.1 * course, axis)).pretranslate(Vec3(0.005 * course, 0, 0));
       Points at(68, 3);

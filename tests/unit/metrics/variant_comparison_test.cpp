@@ -20,8 +20,8 @@ constexpr int kFrames = 41, kPeak = 20;
 constexpr double kStep_s = 0.01;
 
 double pulse(double t_s) {
-  const double end_s = (kFrames - 1) * kStep_s;
-  return t_s < 0 || t_s > end_s ? 0 : 0.5 * (1 - std::cos(2 * M_PI * t_s / end_s));
+  const double last_s = (kFrames - 1) * kStep_s;
+  return t_s < 0 || t_s > last_s ? 0 : 0.5 * (1 - std::cos(2 * M_PI * t_s / last_s));
 }
 
 /// A square of skin, 2 x 2 cm, on both sides of the plane x = 0: vertices 0, 2 on the left.

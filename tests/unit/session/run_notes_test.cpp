@@ -17,7 +17,7 @@ auto is_warning(const char* id, const char* key) {
   return AllOf(test::is_warning(id), test::is_about(key));
 }
 
-simulate::Performance moving(float first_m, float second_m) {
+simulate::Performance skin_moving(float first_m, float second_m) {
   simulate::Performance p;
   p.skin_displacement_m = {PointsF::Zero(2, 3), PointsF::Zero(2, 3)};
   p.skin_displacement_m[1](0, 0) = first_m;
@@ -140,10 +140,10 @@ TEST(LipsThatPass, AreThoseOfVariantsThatPassFartherThanBase) {
 
 TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {
   std::vector<VariantRun> runs(4);
-  const simulate::Performance base = moving(0.01F, 0.002F);
+  const simulate::Performance base = skin_moving(0.01F, 0.002F);
   runs[0].simulation.performance = base;
-  runs[1].simulation.performance = moving(0.01F, 0.0020005F);
-  runs[2].simulation.performance = moving(0.01F, 0.002002F);
+  runs[1].simulation.performance = skin_moving(0.01F, 0.0020005F);
+  runs[2].simulation.performance = skin_moving(0.01F, 0.002002F);
   runs[3].simulation.performance = base;
   runs[3].simulation.performance.skin_displacement_m.pop_back();
   for (std::size_t i = 0; i < runs.size(); ++i) runs[i].scene.title = "v" + std::to_string(i);
@@ -154,7 +154,7 @@ TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {
 
 TEST(VariantWarnings, HoldEachKind) {
   simulate::SimulationResult base;
-  base.performance = moving(0, 0);
+  base.performance = skin_moving(0, 0);
   std::vector<VariantRun> runs(1);
   runs[0].simulation = base;
   runs[0].simulation.report.notes = {make_warning("muscles.gain_hardly_used", "hardly active")};
