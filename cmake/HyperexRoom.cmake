@@ -5,7 +5,7 @@ set(HYPEREX_WARNINGS -Wall -Wextra -Wshadow $<$<CXX_COMPILER_ID:GNU>:-Wno-restri
 # and others, which are read once for all of them. For tools that look at one file (clang-tidy) and
 # to find missing includes: OFF.
 option(HYPEREX_UNITY "Compile the sources of a room some at a time" ON)
-set(HYPEREX_UNITY_SOURCES 16)  # 8: half as much again in all; more: more after a change of one
+set(HYPEREX_UNITY_SOURCES 16)  # more: little less time in all, more after a change of one of them
 if(HYPEREX_UNITY)
   # Names of a source's own are those of a header to GCC.
   list(APPEND HYPEREX_WARNINGS $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)

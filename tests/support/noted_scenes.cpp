@@ -191,7 +191,7 @@ const std::vector<NotedScene>& noted_scenes() {
        press_the_lips},
       {"contact.no_equilibrium", false,
        "drive.by=\"displacement\"\nmotion.gain=5\ntissue.strain=\"finite\"\ncontact.lips=true\n"
-       "time.end_s=0.5",
+       "mesh.layers=2\ntime.end_s=0.5",
        press_the_lips},
       {"drive.points_off", false, "drive.points=\"all\"\ntime.end_s=0.5", press_the_lips},
       {"output.glb_coarse", false,
