@@ -276,20 +276,25 @@ TEST_F(StudioServer, TakesUploadsOfItsPageAlone) {
   EXPECT_THAT(answer_to("POST /upload/huge HTTP/1.1\r\nHost: " + own() + "\r\nOrigin: http://" +
                         own() + "\r\n" + bearer() + "Content-Length: 2147483648\r\n\r\n"),
               HasSubstr("413"));
-  // Torn in the middle: nothing is left of it.
-  {
-    tcp::socket socket = connected();
-    asio::write(socket, asio::buffer("POST /upload/torn.ply HTTP/1.1\r\nHost: " + own() +
-                                     "\r\nOrigin: http://" + own() + "\r\n" + bearer() +
-                                     "Content-Length: 1000\r\n\r\nhalf"));
-  }
   const auto parts = [&] {
     for (const auto& file : std::filesystem::directory_iterator(folder_.path()))
       if (file.path().filename().string().starts_with(".part-")) return true;
     return false;
   };
-  for (int i = 0; i < 100 && parts(); ++i)
-    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+  const auto wait_until_parts = [&](bool there) {
+    for (int i = 0; i < 100 && parts() != there; ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    return parts() == there;
+  };
+  // Torn in the middle, once it has begun to be written: nothing is left of it.
+  {
+    tcp::socket socket = connected();
+    asio::write(socket, asio::buffer("POST /upload/torn.ply HTTP/1.1\r\nHost: " + own() +
+                                     "\r\nOrigin: http://" + own() + "\r\n" + bearer() +
+                                     "Content-Length: 1000\r\n\r\nhalf"));
+    EXPECT_TRUE(wait_until_parts(true));
+  }
+  EXPECT_TRUE(wait_until_parts(false));
   int files = 0;
   for ([[maybe_unused]] const auto& file : std::filesystem::directory_iterator(folder_.path()))
     ++files;
