@@ -10,7 +10,6 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/scene_reader.hpp"
 #include "hyperex/scene/values.hpp"
-#include "hyperex/tissue/field/tissue_field.hpp"
 
 namespace hyperex::scene {
 
@@ -70,8 +69,11 @@ void SceneReader::check_drive() {
                                    {"muscles.without", !scene.muscles_without.empty()}})
     if (!by_muscles && given)
       complain_given(key, "drive.by = \"muscles\" in the scene: muscles move nothing otherwise");
-  for (const auto& [key, given] : {std::pair{"surgery.bone", !scene.surgery.bones.empty()},
-                                   {"tissue.region", tissue::adds_volume(scene.tissue)}})
+  const bool adds_volume =
+      std::any_of(scene.tissue.regions.begin(), scene.tissue.regions.end(),
+                  [](const tissue::TissueRegion& region) { return region.volume_m3 != 0; });
+  for (const auto& [key, given] :
+       {std::pair{"surgery.bone", !scene.surgery.bones.empty()}, {"tissue.region", adds_volume}})
     if (given && scene.drive.by == simulate::DriveBy::displacement && !drive_is_open())
       complain_given(key,
                      "drive.by = \"muscles\" or \"reactions\" in the scene, as driven points stay "
