@@ -285,14 +285,14 @@ void add_surface_options(CLI::App& command, SymmetryOptions& options) {
 
 /// Options that say what is taken for noise.
 void add_noise_options(CLI::App& command, SymmetryOptions& options) {
-  add_described(command, "--floor", options.output, &scene::OutputOptions::symmetry_floor);
+  using Output = scene::OutputOptions;
+  add_described(command, "--floor", options.output, &Output::symmetry_floor);
   command
       .add_option("--jitter-mm", options.jitter_mm,
                   "Jitter of the points (standard deviation per coordinate, mm), which sets the "
                   "noise floor. auto: for a run's folder the value in its summary.json, else "
                   "estimated from the fourth differences of the points in time; 0: exact points")
       ->capture_default_str();
-  using Output = scene::OutputOptions;
   add_described(command, "--repetition-mm", options.output, &Output::repetition_m);
   add_described(command, "--lowpass-hz", options.output, &Output::lowpass_hz);
 }

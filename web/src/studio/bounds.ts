@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a scene allows of a number. The server sends it as the program describes it (StudioState.boundsOf).
+// The range of a number in a scene. The server sends the ranges that the program describes (StudioState.boundsOf).
 
 export interface Bounds {
   low: number;
@@ -10,8 +10,8 @@ export interface Bounds {
 
 export const holds = ({ low, high, above }: Bounds, value: number): boolean => (above ? value > low : value >= low) && value <= high;
 
-/** The ends of a slider, where they are allowed. */
+/** The range of a slider from `from` to `to`, without what is not allowed. */
 export const clipped = ({ low, high }: Bounds, from: number, to: number): [number, number] => [Math.max(from, low), Math.min(to, high)];
 
-/** Of a factor that is shown in per cent. */
+/** The bounds of a factor that is shown in per cent. */
 export const inPercent = ({ low, high, above }: Bounds): Bounds => ({ low: 100 * low, high: 100 * high, above });

@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The sliders of what a row of tissue.region changes, in a part of the face or in a painted patch.
+// Sliders for one region of the face, named or painted: its added volume, and the factors that multiply its stiffness
+// and viscosity (a row of tissue.region in the scene).
 import { clipped } from './bounds';
 import { regionKey } from './patches';
 import { linear, logarithmic, Slider, threeDigits, type SliderOptions } from './slider';
 import type { StudioState } from './studio_state';
 import { words } from './words';
 
-/** Where the sliders end is a choice of this page, for what is usual; digits may say all that the scene allows. */
+/** The sliders cover the usual range, which is a choice of this page. Typed numbers may have any value that the scene
+ *  allows. */
 const usualFactors = [0.1, 10] as const;
 const usualMl = [-5, 10] as const;
 
 /** Tenths, without a negative zero. */
 const tenth = (ml: number): number => Math.round(10 * ml) / 10 || 0;
 
-/** Of the volume that filler or an implant adds. */
+/** A slider for the volume that filler or an implant adds; negative: taken away. */
 export function volumeSlider(state: StudioState, setting: Pick<SliderOptions, 'live' | 'done'>): Slider {
   const bounds = state.boundsOf(regionKey, 'volume_ml');
   return new Slider({
@@ -21,7 +23,7 @@ export function volumeSlider(state: StudioState, setting: Pick<SliderOptions, 'l
   });
 }
 
-/** Of a factor of stiffness or viscosity. */
+/** A slider for a factor that multiplies stiffness or viscosity. */
 export function factorSlider(
   state: StudioState, column: 'young_factor' | 'viscosity_factor', setting: Pick<SliderOptions, 'name' | 'hint' | 'live' | 'done'>,
 ): Slider {

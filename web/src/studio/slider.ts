@@ -33,7 +33,7 @@ export interface SliderOptions {
   course: Course;
   /** Rounds what the slider gives. */
   round(value: number): number;
-  /** Of the digits. */
+  /** Range of typed numbers; the slider itself may cover less. */
   bounds: Bounds;
   /** What an arrow key changes on a linear slider; not given: a thousandth of its length. */
   step?: number;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The slider of a strength: a factor of the scene, shown in per cent.
+// A slider for the strength of muscles: a factor in the scene, shown in per cent.
 import { clipped, inPercent, type Bounds } from './bounds';
 import { linear, Slider, type SliderOptions } from './slider';
 
-/** Where the slider ends is a choice of this page: more is seldom asked. Digits may say all that the scene allows. */
+/** The slider covers the usual range, which is a choice of this page. Typed numbers may have any value that the scene
+ *  allows. */
 const usualPercent = [0, 200] as const;
 
 export function strengthSlider(factors: Bounds, setting: Omit<SliderOptions, 'unit' | 'course' | 'round' | 'bounds'>): Slider {
