@@ -44,8 +44,10 @@ class BoundsCheck {
   template <class Value>
   void check(const std::string& name, const std::vector<Value>& values,
              const OptionDetails& details) {
+    // A list that may be left out is empty; one of a fixed length is not.
     const std::size_t n = values.size();
-    if (n > details.most || (n > 0 && n < details.least))
+    const bool left_out = n == 0 && details.least < details.most;
+    if (n > details.most || (n < details.least && !left_out))
       problems_.push_back({{}, 0, name, fmt::format("{} of them", n), number_of(details)});
     for (std::size_t i = 0; i < values.size(); ++i)
       check(fmt::format("{}[{}]", name, i), values[i], details);

@@ -87,10 +87,6 @@ void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& proble
     problems.push_back(wrong("tissue.region", "volume that is added", kForcesMustDrive));
   for (std::size_t i = 0; i < o.surgery.bones.size(); ++i) {
     const BoneMove& move = o.surgery.bones[i];
-    for (const auto& [name, of] : {std::pair{"move_m", &move.move_m}, {"turn_deg", &move.turn_deg}})
-      if (of->empty())
-        problems.push_back(
-            wrong(fmt::format("surgery.bone[{}].{}", i, name).c_str(), "0 of them", "3"));
     const BoneCut usual = usual_cut(move.part);
     const bool chin = move.part == BonePart::chin || move.part == BonePart::maxilla;
     const bool fits =
