@@ -12,6 +12,8 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
 #include "refuse.hpp"
@@ -86,13 +88,26 @@ simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landm
   return simulate::align(motion, landmarks, from_word<simulate::AlignmentMethod>("method", method));
 }
 
+/// Each as a UserWarning at the line of the caller.
+void warn_of(const std::vector<Note>& notes) {
+  const py::gil_scoped_acquire python;
+  for (const Note& note : notes)
+    if (PyErr_WarnEx(PyExc_UserWarning, note.text.c_str(), 1) != 0)
+      throw py::error_already_set();  // the user's filters turn warnings into errors
+}
+
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
                                  double max_gap_s, const Names& rigid_points, bool still_head,
                                  const std::string& method) {
-  const Motion whole = filled(motion, max_gap_s);
-  return aligned(
-      still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points),
-      landmarks, method);
+  const motion::MendedMotion mended = motion::without_wild_samples(motion);
+  warn_of(session::reading_warnings(mended));
+  motion::check_reach_beside_head(mended.motion);
+  const Motion whole = filled(mended.motion, max_gap_s);
+  const Motion steady =
+      still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points);
+  motion::check_reach(steady);
+  if (const auto far = session::far_points_warning(steady)) warn_of({*far});
+  return aligned(steady, landmarks, method);
 }
 
 void bind_class(py::module_& m) {
@@ -193,7 +208,8 @@ void bind_motion(py::module_& m) {
         "similarity or normalised.");
   m.def("prepare_motion", &prepared, "motion"_a, "landmarks"_a, py::kw_only(), "max_gap_s"_a = 0.2,
         "rigid_points"_a = Names{}, "still_head"_a = false, "method"_a = "nonrigid", Unlocked(),
-        "What `hyperex run` does with a recording: fill_gaps, stabilise, align.");
+        "What `hyperex run` does with a recording: wild readings left out (UserWarning) or refused "
+        "(InputError), fill_gaps, stabilise, align.");
 }
 
 }  // namespace hyperex::python

@@ -30,6 +30,7 @@
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
 #include "symmetry_frames.hpp"
@@ -254,8 +255,13 @@ void run(const SymmetryOptions& options) {
   motion::check_reach_beside_head(motion);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
-  if (!steady.head_pose.empty()) motion::check_reach(steady);
-  for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
+  std::optional<Note> far_points;
+  if (!steady.head_pose.empty()) {
+    motion::check_reach(steady);
+    far_points = session::far_points_warning(steady);
+  }
+  for (const Note& warning : session::reading_warnings(mended)) spdlog::warn("{}", warning.text);
+  for (const auto& warning : {far_points, session::coarse_warning(motion),
                               session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
     if (warning) spdlog::warn("{}", warning->text);

@@ -56,6 +56,35 @@ class Motions(unittest.TestCase):
             hyperex.fill_gaps(motion, max_gap_s=0.1)
 
 
+class WildReadings(unittest.TestCase):
+    """A corner of the mouth is off in some readings."""
+
+    def prepared(self, off_m, first, last):
+        motion = hyperex.embedded_mouth_opening(face().landmarks)
+        positions = motion.positions_m.copy()
+        positions[first:last, motion.names.index("cheilion_L"), 2] += off_m
+        return hyperex.prepare_motion(
+            hyperex.Motion(motion.names, motion.time_s, positions), face().landmarks)
+
+    def farthest_mm(self, prepared):
+        path = prepared.motion["cheilion_L"]
+        return 1e3 * np.linalg.norm(path - path[0], axis=1).max()
+
+    def test_one_is_left_out_with_a_warning(self):
+        sound = self.farthest_mm(self.prepared(0, 0, 0))
+        with self.assertWarnsRegex(UserWarning, "jumps away and back"):
+            mended = self.prepared(0.3, 8, 9)
+        self.assertLess(abs(self.farthest_mm(mended) - sound), 2)
+
+    def test_four_are_refused(self):
+        with self.assertRaisesRegex(hyperex.InputError, "expected at most"):
+            self.prepared(0.3, 6, 10)
+
+    def test_a_point_that_goes_too_far_is_named(self):
+        with self.assertWarnsRegex(UserWarning, "cheilion_L: 38 mm"):
+            self.prepared(0.06, 8, 40)
+
+
 class Files(unittest.TestCase):
     def test_same_message_as_the_program(self):
         with self.assertRaisesRegex(hyperex.InputError, "^no_such.ply: "):

@@ -75,6 +75,28 @@ void let_a_marker_stay_away(const fs::path& folder) {
   });
 }
 
+/// Two readings that the system did not see.
+void lose_a_marker(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (std::size_t k = 8; k < 10; ++k) m.positions[k].row(m.index_of("cheilion_L")).setZero();
+  });
+}
+
+/// Ten samples a second.
+void let_a_marker_jump_slowly(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (double& time_s : m.time_s) time_s *= 3;
+    m.positions[8](m.index_of("cheilion_L"), 2) += 0.05;
+  });
+}
+
+void let_a_marker_drift(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      m.positions[k](m.index_of("cheilion_L"), 2) += 0.05 * double(k) / 15;
+  });
+}
+
 void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
@@ -163,6 +185,9 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.coarse", true, "", time_at_3_hz},
       {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.jumps", true, "", let_a_marker_stay_away},
+      {"recording.zeros", true, "", lose_a_marker},
+      {"recording.lone_samples", true, "", let_a_marker_jump_slowly},
+      {"recording.far_points", true, "", let_a_marker_drift},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",

@@ -30,10 +30,20 @@ constexpr NoteKind kKinds[] = {
     "times are probably in milliseconds."),
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
-    "than 0.6 m/s. The readings were left out and interpolated."),
+    "than 0.6 m/s, or by more than 6 mm in one reading while the points beside it stay. The "
+    "readings were left out and interpolated."),
+  warning("recording.zeros", "motion.file",
+    "Readings of (0, 0, 0) of a point that is never within 20 mm of there otherwise: some systems "
+    "write a marker so that they do not see. They were taken as missing."),
+  warning("recording.lone_samples", "motion.file",
+    "A point jumps away by more than 20 mm and comes back in one reading while the points beside it "
+    "stay, in a recording of less than 24 samples a second. The readings were kept."),
   warning("recording.jumps", "motion.file",
     "A point moves by more than 20 mm and faster than 0.6 m/s from one reading to the next, and "
     "stays away too long to be mended. The readings were kept."),
+  warning("recording.far_points", "motion.file",
+    "A point goes farther from its first place than this part of a face can: corners of the mouth "
+    "38 mm, upper lip 30, brows 25, nose and eyes 20, lower lip and chin 75."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",

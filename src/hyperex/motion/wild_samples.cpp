@@ -4,7 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
+#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -62,6 +62,35 @@ void interpolate(const Motion& sound, const WildSample& wild, Motion& to) {
       (1 - share) * sound.positions[before].row(row) + share * sound.positions[after].row(row);
 }
 
+void mend(const std::vector<WildSample>& wild, Motion& motion) {
+  if (wild.empty()) return;
+  Motion sound = motion;
+  for (const WildSample& one : wild)
+    sound.positions[one.sample]
+        .row(sound.index_of(one.point))
+        .setConstant(std::numeric_limits<double>::quiet_NaN());
+  for (const WildSample& one : wild) interpolate(sound, one, motion);
+}
+
+std::vector<WildSample> far_off_their_median(const Motion& motion, double least_m) {
+  std::vector<WildSample> wild;
+  const auto points = Eigen::Index(motion.names.size());
+  Points off(points, 3);
+  std::vector<Eigen::RowVector3d> measured;
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    measured.clear();
+    for (Eigen::Index p = 0; p < points; ++p) {
+      off.row(p) = off_its_neighbours(motion, k, p);
+      if (off.row(p).allFinite()) measured.emplace_back(off.row(p));
+    }
+    const Eigen::RowVector3d of_head = median_row(measured);
+    for (Eigen::Index p = 0; p < points; ++p)
+      if (const double off_m = (off.row(p) - of_head).norm(); off_m > least_m)
+        wild.push_back({motion.names[std::size_t(p)], k, off_m});
+  }
+  return wild;
+}
+
 /// The positions, each sample less the median displacement of its points since the first sample.
 std::vector<Points> without_shift(const Motion& m) {
   std::vector<Points> out = m.positions;
@@ -74,6 +103,81 @@ std::vector<Points> without_shift(const Motion& m) {
     sample.rowwise() -= median_row(moved);
   }
   return out;
+}
+
+/// Takes readings of exactly (0, 0, 0) as missing where all others of the point are far from there.
+std::vector<WildSample> without_zeros(Motion& m) {
+  std::vector<WildSample> zeros;
+  for (Eigen::Index p = 0; p < Eigen::Index(m.names.size()); ++p) {
+    double nearest_m = std::numeric_limits<double>::infinity();
+    std::vector<std::size_t> at;
+    for (std::size_t k = 0; k < m.positions.size(); ++k) {
+      const auto row = m.positions[k].row(p);
+      if ((row.array() == 0).all())
+        at.push_back(k);
+      else if (row.allFinite())
+        nearest_m = std::min(nearest_m, row.norm());
+    }
+    if (nearest_m < kWildJump_m || !std::isfinite(nearest_m)) continue;
+    for (const std::size_t k : at) {
+      zeros.push_back({m.names[std::size_t(p)], k, nearest_m});
+      m.positions[k].row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
+    }
+  }
+  return zeros;
+}
+
+/// Between two readings of a point; NaN where one is missing.
+double way_m(const std::vector<Points>& at, std::size_t a, std::size_t b, Eigen::Index p) {
+  return (at[b].row(p) - at[a].row(p)).norm();
+}
+
+/// From a reading to the middle of those before and after it; NaN where one is missing.
+double bend_m(const std::vector<Points>& at, std::size_t k, Eigen::Index p) {
+  return (at[k].row(p) - 0.5 * (at[k - 1].row(p) + at[k + 1].row(p))).norm();
+}
+
+double usual_bend_m(const std::vector<Points>& at, Eigen::Index p) {
+  std::vector<double> all;
+  for (std::size_t k = 1; k + 1 < at.size(); ++k)
+    if (const double bend = bend_m(at, k, p); std::isfinite(bend)) all.push_back(bend);
+  return median(all);
+}
+
+bool goes_and_returns(const std::vector<Points>& at, std::size_t k, Eigen::Index p,
+                      double least_m) {
+  const double jump_m = std::min(way_m(at, k - 1, k, p), way_m(at, k, k + 1, p));
+  if (!(jump_m > least_m)) return false;
+  double around_m = way_m(at, k - 1, k + 1, p);
+  // fmax() passes over what is missing.
+  if (k >= 2) around_m = std::fmax(around_m, way_m(at, k - 2, k - 1, p));
+  if (k + 2 < at.size()) around_m = std::fmax(around_m, way_m(at, k + 1, k + 2, p));
+  return jump_m > 3 * around_m;
+}
+
+/// Whether one of the four points beside this one does a third of the same.
+bool is_joined(const std::vector<Points>& at, std::size_t k, Eigen::Index p) {
+  std::vector<std::pair<double, Eigen::Index>> beside;
+  for (Eigen::Index q = 0; q < at[k].rows(); ++q)
+    if (const double far_m = (at[k - 1].row(q) - at[k - 1].row(p)).norm();
+        q != p && std::isfinite(far_m))
+      beside.emplace_back(far_m, q);
+  std::ranges::sort(beside);
+  if (beside.size() > 4) beside.resize(4);
+  return std::ranges::any_of(beside, [&, bend = bend_m(at, k, p)](const auto& point) {
+    return bend_m(at, k, point.second) > bend / 3;
+  });
+}
+
+std::vector<WildSample> lone_readings(const Motion& m, double least_m) {
+  std::vector<WildSample> lone;
+  const std::vector<Points> at = without_shift(m);
+  for (std::size_t k = 1; k + 1 < at.size(); ++k)
+    for (Eigen::Index p = 0; p < at[k].rows(); ++p)
+      if (goes_and_returns(at, k, p, least_m) && !is_joined(at, k, p) &&
+          bend_m(at, k, p) > 8 * usual_bend_m(at, p))
+        lone.push_back({m.names[std::size_t(p)], k, bend_m(at, k, p)});
+  return lone;
 }
 
 /// The least distance within `step_s` that no face moves.
@@ -124,31 +228,24 @@ std::string place_of(const Motion& motion, const std::string& point, std::size_t
 }
 
 MendedMotion without_wild_samples(const Motion& motion) {
-  MendedMotion out{motion, {}, {}};
-  const auto points = Eigen::Index(motion.names.size());
-  if (points < 3) return out;
+  MendedMotion out{motion, {}, {}, {}, {}};
+  if (motion.names.size() < 3) return out;
+  out.zeros = without_zeros(out.motion);
   if (motion.positions.size() < 2 * kHalfWindow + 1) {
-    out.jumps = jumps_of(motion);
+    out.jumps = jumps_of(out.motion);
     return out;
   }
-  const double least_m = implausible_m(median_step(motion.time_s));
-  Motion sound = motion;
-  Points off(points, 3);
-  std::vector<Eigen::RowVector3d> measured;
-  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
-    measured.clear();
-    for (Eigen::Index p = 0; p < points; ++p) {
-      off.row(p) = off_its_neighbours(motion, k, p);
-      if (off.row(p).allFinite()) measured.emplace_back(off.row(p));
-    }
-    const Eigen::RowVector3d of_head = median_row(measured);
-    for (Eigen::Index p = 0; p < points; ++p)
-      if (const double off_m = (off.row(p) - of_head).norm(); off_m > least_m) {
-        out.wild.push_back({motion.names[std::size_t(p)], k, off_m});
-        sound.positions[k].row(p).setConstant(std::numeric_limits<double>::quiet_NaN());
-      }
+  const double step_s = median_step(motion.time_s);
+  out.wild = far_off_their_median(out.motion, implausible_m(step_s));
+  mend(out.wild, out.motion);
+  if (step_s <= kSlowStep_s) {
+    const std::vector<WildSample> lone = lone_readings(out.motion, kLoneJump_m);
+    mend(lone, out.motion);
+    out.wild.insert(out.wild.end(), lone.begin(), lone.end());
+    std::ranges::stable_sort(out.wild, {}, &WildSample::sample);
+  } else {
+    out.lone = lone_readings(out.motion, kWildJump_m);
   }
-  for (const WildSample& wild : out.wild) interpolate(sound, wild, out.motion);
   out.jumps = jumps_of(out.motion);
   return out;
 }

@@ -20,6 +20,11 @@ struct WildSample {
 struct MendedMotion {
   Motion motion;                 ///< wild readings interpolated; at the ends the nearest one held
   std::vector<WildSample> wild;  ///< in the order of time, then of the points
+  /// Readings of exactly (0, 0, 0) of a point that is elsewhere otherwise, off_m from there: so
+  /// some systems write a marker that they do not see. In `motion` they are missing.
+  std::vector<WildSample> zeros;
+  /// Readings that jump away and back alone in a slow recording, where a face could do so. Kept.
+  std::vector<WildSample> lone;
   /// Readings of `motion` that are as far and as fast from the point's reading before, off_m, in
   /// the same order: points that jump away and stay there longer than can be mended.
   std::vector<WildSample> jumps;
@@ -29,12 +34,19 @@ struct MendedMotion {
 /// 0.3 m/s. At 30 Hz both bounds are the same jump.
 inline constexpr double kWildJump_m = 0.02, kWildSpeed_m_s = 0.6;
 
-/// Finds each reading that is farther than max(kWildJump_m, kWildSpeed_m_s * median step) from the
-/// median of the five readings of its point around it, and replaces it by linear interpolation in
-/// time. The median of the same difference over all points is subtracted first, so that a jump of
-/// the whole head does not count as a jump of a point. At most two samples in a row can be mended.
-/// With fewer than three points or five samples nothing is mended, and with fewer than three points
-/// no jump is found.
+/// A reading is *lone* if its point jumps to it and back, each time three times as far as between
+/// the readings around it and eight times as far as the point usually bends its path, while no
+/// point beside it does a third of the same. From 24 samples a second on, where no movement of a
+/// face is that short, a lone reading is wild above kLoneJump_m. In slower recordings it is named
+/// above kWildJump_m.
+inline constexpr double kLoneJump_m = 0.006, kSlowStep_s = 1 / 23.5;
+
+/// Finds wild readings and replaces them by linear interpolation in time. Wild is what is farther
+/// than max(kWildJump_m, kWildSpeed_m_s * median step) from the median of the five readings of its
+/// point around it, and what is lone. The median of the same difference over all points is
+/// subtracted first, so that a jump of the whole head does not count as a jump of a point. At most
+/// two samples in a row can be mended. With fewer than three points or five samples nothing is
+/// mended, and with fewer than three points no jump is found.
 MendedMotion without_wild_samples(const Motion& motion);
 
 /// The largest plausible distance of a point of a face from its first reading, m.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hyperex/core/one_thread.hpp"
+#include "hyperex/core/symmetric_modes.hpp"
 
 namespace hyperex::report {
 
@@ -33,11 +34,11 @@ Eigen::MatrixXd frame_products(const std::vector<PointsF>& frames) {
 Eigen::MatrixXd leading_eigenvectors(const Eigen::MatrixXd& gram, Eigen::VectorXd& values) {
   values.resize(0);
   if (gram.rows() == 0) return gram;  // of a face that does not move
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  values = eigen.eigenvalues().reverse();
+  const SymmetricModes eigen = symmetric_modes(gram);
+  values = eigen.values.reverse();
   const Index rank = (values.array() > 1e-15 * values[0]).count() * (values[0] > 0);
   values.conservativeResize(rank);
-  return eigen.eigenvectors().rowwise().reverse().leftCols(rank);
+  return eigen.vectors.rowwise().reverse().leftCols(rank);
 }
 
 double largest_row_error(const Eigen::MatrixXd& residual) {

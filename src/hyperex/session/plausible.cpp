@@ -47,21 +47,6 @@ std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, 
   return nearest;
 }
 
-/// "FILE:LINE, point NAME at 0.467 s: 300 mm", of the first three, and how many more there are.
-std::string first_readings(const motion::Motion& m,
-                           const std::vector<motion::WildSample>& readings) {
-  constexpr std::size_t most_named = 3;
-  std::vector<std::string> named;
-  for (const motion::WildSample& reading : readings)
-    if (named.size() < most_named)
-      named.push_back(fmt::format("{}: {:.4g} mm",
-                                  motion::place_of(m, reading.point, reading.sample),
-                                  1e3 * reading.off_m));
-  const std::size_t more = readings.size() - named.size();
-  return fmt::format("{}{}", fmt::join(named, "; "),
-                     more > 0 ? fmt::format("; and {} more", more) : "");
-}
-
 double misfit_m(const Points& recorded, const Points& scanned) {
   return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
 }
@@ -170,25 +155,6 @@ std::optional<Note> idle_law_warning(const scene::Scene& scene) {
   return make_warning(
       "law.idle",
       fmt::format("without effect, as tissue.strain is not \"finite\": {}", fmt::join(idle, ", ")));
-}
-
-std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended) {
-  if (mended.wild.empty()) return std::nullopt;
-  return make_warning(
-      "recording.wild_samples",
-      fmt::format("a point jumps away and back within {} reading{}, which no face does; left out "
-                  "and interpolated: {}",
-                  mended.wild.size(), mended.wild.size() > 1 ? "s" : "",
-                  first_readings(mended.motion, mended.wild)));
-}
-
-std::optional<Note> jumps_warning(const motion::MendedMotion& mended) {
-  if (mended.jumps.empty()) return std::nullopt;
-  return make_warning(
-      "recording.jumps",
-      fmt::format("a point moves farther between two readings than a face can; kept as it is, so "
-                  "correct it or leave its cells empty: {}",
-                  first_readings(mended.motion, mended.jumps)));
 }
 
 std::optional<Note> stillness_warning(const motion::Motion& stabilised) {

@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/session/inputs.hpp"
 
 namespace hyperex::session {
@@ -46,14 +45,6 @@ std::optional<Note> timing_warning(const motion::Motion& m);
 
 /// `recording.coarse`: the median step is above 0.1 s, up to the bound of the former.
 std::optional<Note> coarse_warning(const motion::Motion& m);
-
-/// `recording.wild_samples`: names the first samples that were left out, because no face moves like
-/// that.
-std::optional<Note> wild_samples_warning(const motion::MendedMotion& mended);
-
-/// `recording.jumps`: names the first readings to which a point moves as no face does, and which
-/// were kept.
-std::optional<Note> jumps_warning(const motion::MendedMotion& mended);
 
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -17,6 +18,7 @@
 #include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/track_recording.hpp"
 #include "hyperex/session/unknown_names.hpp"
@@ -170,8 +172,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
     }
   }
   const motion::MendedMotion mended = motion::without_wild_samples(m);
-  add(in.notes, wild_samples_warning(mended));
-  add(in.notes, jumps_warning(mended));
+  std::ranges::copy(reading_warnings(mended), std::back_inserter(in.notes));
   // Before a reading that is far off spoils the head's pose.
   motion::check_reach_beside_head(mended.motion);
   motion::GapOptions gaps;
@@ -189,6 +190,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
                                   : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;
   motion::check_reach(steady.motion);
+  add(in.notes, far_points_warning(steady.motion));
   note_head(steady, in);
   if (whole) {
     in.pose_variance =

@@ -19,6 +19,7 @@
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 
 namespace hyperex::visits {
@@ -45,6 +46,8 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
     motion::StabilisedMotion steady =
         motion::stabilise(motion, {.rigid_points = visits.rigid_points});
     motion::check_reach(steady.motion);
+    if (const auto far = session::far_points_warning(steady.motion))
+      face.remarks.push_back(far->text);
     face.head_known = true;
     return steady;
   } catch (const InputError& error) {
@@ -280,8 +283,9 @@ MeasuredFace measure_recording(const fs::path& recording, const VisitEntry& visi
       motion::until(motion::read_motion(recording, visits.unit), visit.end_s, "end_s"));
   motion::check_reach_beside_head(mended.motion);
   MeasuredFace face = measure(mended.motion, visits, visit.jitter_m, first);
-  for (const auto& warning : {session::wild_samples_warning(mended), session::jumps_warning(mended),
-                              session::exchanged_warning(mended.motion, session::average_face()),
+  for (const Note& warning : session::reading_warnings(mended))
+    face.remarks.push_back(warning.text);
+  for (const auto& warning : {session::exchanged_warning(mended.motion, session::average_face()),
                               session::timing_warning(mended.motion)})
     if (warning) face.remarks.push_back(warning->text);
   return face;

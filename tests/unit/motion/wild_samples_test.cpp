@@ -2,6 +2,7 @@
 #include "hyperex/motion/wild_samples.hpp"
 
 #include <cmath>
+#include <functional>
 
 #include "unit/motion/motions.hpp"
 
@@ -100,10 +101,83 @@ TEST(WildSamples, TheHeadMayJump) {
   EXPECT_TRUE(without_wild_samples(motion).jumps.empty());
 }
 
-TEST(WildSamples, SlowRecordingsMayMoveFartherInASample) {
+TEST(WildSamples, SlowRecordingsMayMoveFartherInASampleAndAreNamed) {
   EXPECT_EQ(without_wild_samples(with_jump(0.025, 10, 10)).wild.size(), 1u);
-  EXPECT_TRUE(without_wild_samples(with_jump(0.025, 10, 10, 0.1)).wild.empty());
+  const Motion slow = with_jump(0.055, 10, 10, 0.1);
+  const MendedMotion kept = without_wild_samples(slow);
+  EXPECT_TRUE(kept.wild.empty());
+  EXPECT_EQ(greatest_difference(kept.motion, slow), 0);
+  ASSERT_EQ(kept.lone.size(), 1u);
+  EXPECT_EQ(kept.lone[0].point, "lip");
+  EXPECT_EQ(kept.lone[0].sample, 10u);
+  EXPECT_NEAR(kept.lone[0].off_m, 0.055, 1e-3);
+  EXPECT_TRUE(without_wild_samples(with_jump(0.055, 10, 11, 0.1)).lone.empty());
   EXPECT_EQ(without_wild_samples(with_jump(0.1, 10, 10, 0.1)).wild.size(), 1u);
+}
+
+/// Points on a grid of 10 mm which all breathe by 1 mm. Point p4 is in the middle.
+Motion grid(const std::function<double(double t, int p)>& moved_m) {
+  return testing::sampled(31, kStep_s, {"p0", "p1", "p2", "p3", "p4", "p5", "p6", "p7", "p8"},
+                          [&](double t, int p, int axis) {
+                            const double place = axis == 2 ? 0 : 0.01 * (axis ? p / 3 : p % 3);
+                            const double breath = axis == 1 ? 1e-3 * std::sin(2 * M_PI * t) : 0;
+                            return 0.1 + place + breath + (axis == 2 ? moved_m(t, p) : 0);
+                          });
+}
+
+bool is_sample(double t, int k) {
+  return std::abs(t - k * kStep_s) < 1e-6;
+}
+
+TEST(WildSamples, ALoneReadingIsWildFromSixMillimetres) {
+  const Motion sound = grid([](double, int) { return 0.0; });
+  const auto with_lone = [](double off_m) {
+    return grid([&](double t, int p) { return p == 4 && is_sample(t, 12) ? off_m : 0; });
+  };
+  const MendedMotion mended = without_wild_samples(with_lone(0.007));
+  ASSERT_EQ(mended.wild.size(), 1u);
+  EXPECT_EQ(mended.wild[0].point, "p4");
+  EXPECT_EQ(mended.wild[0].sample, 12u);
+  EXPECT_NEAR(mended.wild[0].off_m, 0.007, 2e-4);
+  EXPECT_LT(greatest_difference(mended.motion, sound), 1e-4);
+  EXPECT_TRUE(without_wild_samples(with_lone(0.0055)).wild.empty());
+}
+
+TEST(WildSamples, WhatOtherPointsDoTooIsNoLoneReading) {
+  // Of a lid, two points move.
+  EXPECT_TRUE(without_wild_samples(grid([](double t, int p) {
+                return (p == 4 || p == 5) && is_sample(t, 12) ? 0.01 : 0;
+              })).wild.empty());
+  // Two readings long, and a movement that rises and falls.
+  EXPECT_TRUE(without_wild_samples(grid([](double t, int p) {
+                return p == 4 && (is_sample(t, 12) || is_sample(t, 13)) ? 0.01 : 0;
+              })).wild.empty());
+  EXPECT_TRUE(without_wild_samples(grid([](double t, int p) {
+                if (p != 4) return 0.0;
+                return is_sample(t, 12) ? 0.016 : is_sample(t, 11) || is_sample(t, 13) ? 0.008 : 0;
+              })).wild.empty());
+}
+
+TEST(WildSamples, WhereAPointAlwaysShakesALoneReadingIsNothing) {
+  const auto shaking = [](double t, int p) {
+    const int k = int(std::lround(t / kStep_s));
+    return p == 4 && k % 4 == 1 ? 0.007 : 0.0;
+  };
+  EXPECT_TRUE(without_wild_samples(grid(shaking)).wild.empty());
+}
+
+TEST(WildSamples, ReadingsAtTheOriginAreMissing) {
+  Motion motion = opening();
+  motion.positions[10].row(3).setZero();
+  motion.positions[11].row(3).setZero();
+  const MendedMotion mended = without_wild_samples(motion);
+  ASSERT_EQ(mended.zeros.size(), 2u);
+  EXPECT_EQ(mended.zeros[0].point, "lip");
+  EXPECT_EQ(mended.zeros[1].sample, 11u);
+  EXPECT_TRUE(mended.wild.empty());
+  EXPECT_TRUE(std::isnan(mended.motion.positions[10](3, 0)));
+  // Points that begin at the origin, and one that is always there.
+  EXPECT_TRUE(without_wild_samples(opening()).zeros.empty());
 }
 
 TEST(WildSamples, GapsStayGaps) {

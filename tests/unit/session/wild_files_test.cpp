@@ -86,6 +86,37 @@ TEST_P(WildFiles, AreRefusedRepairedOrWarnedOf) {
   }
 }
 
+/// One reading in the middle is off, in a recording of this rate.
+struct LoneReading {
+  double rate_hz, off_mm;
+  const char* id;  ///< of the warning
+};
+
+class LoneReadings : public testing::TestWithParam<LoneReading> {};
+
+TEST_P(LoneReadings, AreRepairedOrWarnedOfAtEachRate) {
+  const scene::SceneFolder folder;
+  write_good_inputs(folder / "");
+  write_opening(folder / "", 0, 16, [](motion::Motion& m) {
+    for (double& time_s : m.time_s) time_s *= 30 / GetParam().rate_hz;
+    m.positions[7](m.index_of("cheilion_L"), 2) += 1e-3 * GetParam().off_mm;
+  });
+  const Inputs in = read_inputs(scene::read_scene(folder / "scene.toml"), Extent::quick);
+  EXPECT_THAT(in.notes, Contains(AllOf(is_warning(GetParam().id),
+                                       says("motion.csv:9, point cheilion_L at"))));
+}
+
+INSTANTIATE_TEST_SUITE_P(Of, LoneReadings,
+                         testing::Values(LoneReading{120, 10, "recording.wild_samples"},
+                                         LoneReading{60, 15, "recording.wild_samples"},
+                                         LoneReading{30, 15, "recording.wild_samples"},
+                                         LoneReading{10, 25, "recording.lone_samples"},
+                                         LoneReading{10, 50, "recording.lone_samples"},
+                                         LoneReading{10, 80, "recording.wild_samples"}),
+                         [](const auto& of) {
+                           return fmt::format("{}_mm_at_{}_Hz", of.param.off_mm, of.param.rate_hz);
+                         });
+
 INSTANTIATE_TEST_SUITE_P(Of, WildFiles, testing::ValuesIn(wild_files()), [](const auto& of) {
   const WildFile& file = of.param;
   return fmt::format("{:.0f}_mm_from_{}_for_{}_{}", file.off_mm, file.first, file.count,

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/reduced/basis.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "hyperex/core/assert.hpp"
+#include "hyperex/core/symmetric_modes.hpp"
 
 namespace hyperex::fem {
 namespace {
@@ -30,17 +30,17 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double l
   const Eigen::MatrixXd kw = symmetric_product(system_.stiffness, w);
   Eigen::MatrixXd gram = inner_products(w, kw);
   gram = (gram + gram.transpose()).eval() / 2;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(gram);
+  const SymmetricModes modes = symmetric_modes(gram);
   const Eigen::Index n = w.cols();
-  const double strongest = modes.eigenvalues()[n - 1];
+  const double strongest = modes.values[n - 1];
   Eigen::MatrixXd directions = Eigen::MatrixXd::Zero(w.rows(), n);
-  add_product(w, modes.eigenvectors(), 1, directions);
+  add_product(w, modes.vectors, 1, directions);
   // Shape j = sum_i u_i sqrt(lambda_i) S_ij with u_i = w Q_i / sqrt(lambda_i) and S = Q^T mix.
-  const Eigen::MatrixXd shares = modes.eigenvectors().transpose() * mix;
+  const Eigen::MatrixXd shares = modes.vectors.transpose() * mix;
   Eigen::MatrixXd pick(n, 0);
   Grown grown;
   for (Eigen::Index i = n - 1; i >= 0; --i) {
-    const double lambda = modes.eigenvalues()[i];
+    const double lambda = modes.values[i];
     // Smaller squared values are rounding errors, and so are the directions.
     if (!(lambda > 1e-13 * strongest) || !(lambda > 0)) break;
     const double moves =
@@ -50,7 +50,7 @@ Basis::Grown Basis::grow(Eigen::MatrixXd w, const Eigen::MatrixXd& mix, double l
       continue;
     }
     pick.conservativeResize(Eigen::NoChange, pick.cols() + 1);
-    pick.col(pick.cols() - 1) = modes.eigenvectors().col(i) / std::sqrt(lambda);
+    pick.col(pick.cols() - 1) = modes.vectors.col(i) / std::sqrt(lambda);
   }
   grown.taken = static_cast<int>(pick.cols());
   if (grown.taken == 0) return grown;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/fem/reduced/reduced_model.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/symmetric_modes.hpp"
 #include "hyperex/fem/material/entry.hpp"
 #include "hyperex/fem/reduced/basis.hpp"
 #include "hyperex/fem/reduced/reduced_newmark.hpp"
@@ -184,11 +184,11 @@ class Growth {
   /// is omitted here remains in the residual of the next growth.
   Compressed compressed(const Eigen::MatrixXd& r) const {
     const Eigen::MatrixXd scaled = flexibility_.asDiagonal() * r;
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(inner_products(r, scaled));
-    const double least = kLeastDirection * kLeastDirection * modes.eigenvalues().maxCoeff();
+    const SymmetricModes modes = symmetric_modes(inner_products(r, scaled));
+    const double least = kLeastDirection * kLeastDirection * modes.values.maxCoeff();
     Eigen::Index from = 0;
-    while (from + 1 < r.cols() && !(modes.eigenvalues()[from] > least)) ++from;
-    const Eigen::MatrixXd kept = modes.eigenvectors().rightCols(r.cols() - from);
+    while (from + 1 < r.cols() && !(modes.values[from] > least)) ++from;
+    const Eigen::MatrixXd kept = modes.vectors.rightCols(r.cols() - from);
     Compressed out{Eigen::MatrixXd::Zero(r.rows(), kept.cols()), kept.transpose()};
     add_product(r, kept, 1, out.columns);
     return out;

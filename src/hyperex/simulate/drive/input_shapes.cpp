@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/drive/input_shapes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "hyperex/motion/resample.hpp"
+#include "hyperex/simulate/drive/principal_directions.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -50,21 +50,12 @@ class Layout {
 };
 
 /// Orthonormal directions (columns) of the columns of `input`.
-Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& input, double tolerance) {
+Eigen::MatrixXd directions_within(const Eigen::MatrixXd& input, double tolerance) {
   // A motion recorded at 30 Hz is smooth between its frames: some hundred instants span it.
   const Eigen::Index stride = std::max<Eigen::Index>(1, input.cols() / 600);
   const Eigen::MatrixXd some = input(Eigen::all, Eigen::seq(0, Eigen::last, stride));
   const double allowed = std::max(tolerance * input.cwiseAbs().maxCoeff(), kLeastWay);
-  Eigen::MatrixXd directions;
-  if (some.rows() <= some.cols()) {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(some * some.transpose());
-    directions = modes.eigenvectors().rowwise().reverse();
-  } else {
-    const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> modes(some.transpose() * some);
-    const Eigen::MatrixXd wide = some * modes.eigenvectors().rowwise().reverse();
-    directions =
-        wide.householderQr().householderQ() * Eigen::MatrixXd::Identity(wide.rows(), wide.cols());
-  }
+  const Eigen::MatrixXd directions = principal_directions(some).directions;
   Eigen::MatrixXd rest = input;
   Eigen::Index kept = 0;
   while (kept < directions.cols() && rest.cwiseAbs().maxCoeff() > allowed) {
@@ -78,7 +69,7 @@ Eigen::MatrixXd principal_directions(const Eigen::MatrixXd& input, double tolera
 
 fem::Drive compressed_drive(const Eigen::MatrixXd& input, double dt_s, int steps, double tolerance,
                             Eigen::Index prescribed, Eigen::Index unknowns, const FillShape& fill) {
-  const Eigen::MatrixXd directions = principal_directions(input, tolerance);
+  const Eigen::MatrixXd directions = directions_within(input, tolerance);
   const Eigen::Index r = directions.cols();
   fem::Drive drive;
   drive.prescribed.resize(prescribed, r);

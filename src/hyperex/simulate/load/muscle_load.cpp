@@ -3,7 +3,6 @@
 
 #include <tbb/parallel_for.h>
 
-#include <Eigen/SVD>
 #include <algorithm>
 #include <iterator>
 #include <numbers>
@@ -12,6 +11,7 @@
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/simulate/drive/principal_directions.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
 #include "hyperex/simulate/load/holding_forces.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
@@ -186,11 +186,12 @@ void resize(MuscleCourse& course, Eigen::Index muscles, Eigen::Index groups, Eig
 
 /// Orthonormal directions of the columns, as many as matter.
 Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
-  const Eigen::BDCSVD<Eigen::MatrixXd> svd(columns, Eigen::ComputeThinU);
-  const auto& size = svd.singularValues();
+  const PrincipalDirections all = principal_directions(columns);
   Eigen::Index kept = 0;
-  while (kept < size.size() && size[kept] > kLeftOverLost * size[0] && size[kept] > 1e-9) ++kept;
-  return svd.matrixU().leftCols(kept);
+  while (kept < all.sizes.size() && all.sizes[kept] > kLeftOverLost * all.sizes[0] &&
+         all.sizes[kept] > 1e-9)
+    ++kept;
+  return all.directions.leftCols(kept);
 }
 
 /// Places that the residual displacement does not move: beside the ears, the root of the nose and

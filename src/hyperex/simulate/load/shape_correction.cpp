@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/load/shape_correction.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "hyperex/core/symmetric_modes.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -62,22 +63,22 @@ Eigen::MatrixXd along_axes(const Eigen::MatrixXd& weights) {
 /// vectors U give the directions basis Q L^-1/2 U.
 void as_directions(const Eigen::MatrixXd& basis, const Eigen::MatrixXd& amounts,
                    SkinCorrection& out) {
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> gram(basis.transpose() * basis);
-  const double least = 1e-12 * std::max(gram.eigenvalues().maxCoeff(), 1e-30);
-  const Eigen::VectorXd root = gram.eigenvalues().cwiseMax(0).cwiseSqrt();
-  const Eigen::VectorXd inverse = gram.eigenvalues().unaryExpr(
+  const SymmetricModes gram = symmetric_modes(basis.transpose() * basis);
+  const double least = 1e-12 * std::max(gram.values.maxCoeff(), 1e-30);
+  const Eigen::VectorXd root = gram.values.cwiseMax(0).cwiseSqrt();
+  const Eigen::VectorXd inverse = gram.values.unaryExpr(
       [least](double value) { return value > least ? 1 / std::sqrt(value) : 0.0; });
-  const Eigen::MatrixXd x = root.asDiagonal() * (gram.eigenvectors().transpose() * amounts);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> size(x * x.transpose());
-  const Eigen::VectorXd& squared = size.eigenvalues();  // rising
+  const Eigen::MatrixXd x = root.asDiagonal() * (gram.vectors.transpose() * amounts);
+  const SymmetricModes size = symmetric_modes(x * x.transpose());
+  const Eigen::VectorXd& squared = size.values;  // rising
   const double greatest = squared.size() > 0 ? squared[squared.size() - 1] : 0;
   Eigen::Index kept = 0;
   while (kept < squared.size() &&
          squared[squared.size() - 1 - kept] > kDirectionLost * kDirectionLost * greatest &&
          squared[squared.size() - 1 - kept] > 1e-18)
     ++kept;
-  const Eigen::MatrixXd u = size.eigenvectors().rightCols(kept);
-  out.displaced = basis * (gram.eigenvectors() * (inverse.asDiagonal() * u));
+  const Eigen::MatrixXd u = size.vectors.rightCols(kept);
+  out.displaced = basis * (gram.vectors * (inverse.asDiagonal() * u));
   out.course = u.transpose() * x;
 }
 

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/reading_warnings.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
+
+namespace hyperex::session {
+namespace {
+
+constexpr std::size_t kNamedReadings = 3;
+
+/// "FILE:LINE, point NAME at 0.467 s: 300 mm", of the first ones, and how many more there are.
+std::string first_readings(const motion::Motion& m,
+                           const std::vector<motion::WildSample>& readings) {
+  std::vector<std::string> named;
+  for (const motion::WildSample& reading : readings)
+    if (named.size() < kNamedReadings)
+      named.push_back(fmt::format("{}: {:.4g} mm",
+                                  motion::place_of(m, reading.point, reading.sample),
+                                  1e3 * reading.off_m));
+  const std::size_t more = readings.size() - named.size();
+  return fmt::format("{}{}", fmt::join(named, "; "),
+                     more > 0 ? fmt::format("; and {} more", more) : "");
+}
+
+/// The farthest that a point goes, m. The mandible opens by 40 to 60 mm, a corner of the mouth
+/// goes 10 to 20 mm in a smile and as much downwards with the jaw. Points whose part is not known
+/// have the bound of the mandible.
+double reach_m(const std::string& point) {
+  const auto own = face::ibug_number(point);
+  const auto k = own ? own : face::ibug_number(face::other_name(point));
+  constexpr double mandible = 0.075, corner = 0.038, upper_lip = 0.03, brow = 0.025, nose = 0.02;
+  if (!k || (*k >= 3 && *k <= 13)) return mandible;
+  if (*k <= 16) return upper_lip;  // before the ears, beside the condyles
+  if (*k <= 26) return brow;
+  if (*k <= 47) return nose;  // and eyes: lids 12 mm
+  if (*k == 48 || *k == 54 || *k == 60 || *k == 64) return corner;
+  const bool upper = *k <= 53 || (*k >= 61 && *k <= 63);
+  return upper ? upper_lip : mandible;
+}
+
+}  // namespace
+
+std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
+  std::vector<Note> notes;
+  const auto add = [&](const char* id, const std::vector<motion::WildSample>& readings,
+                       const std::string& what) {
+    if (!readings.empty())
+      notes.push_back(
+          make_warning(id, fmt::format("{}: {}", what, first_readings(mended.motion, readings))));
+  };
+  add("recording.wild_samples", mended.wild,
+      fmt::format("a point jumps away and back within {} reading{}, which no face does; left out "
+                  "and interpolated",
+                  mended.wild.size(), mended.wild.size() > 1 ? "s" : ""));
+  add("recording.zeros", mended.zeros,
+      fmt::format("{} reading{} of (0, 0, 0) {} taken as missing, as the point is never near there "
+                  "otherwise",
+                  mended.zeros.size(), mended.zeros.size() > 1 ? "s" : "",
+                  mended.zeros.size() > 1 ? "are" : "is"));
+  add("recording.lone_samples", mended.lone,
+      "a point jumps away and back in a single reading; kept, as a face could do so between "
+      "readings that are so far apart in time, so look at it");
+  add("recording.jumps", mended.jumps,
+      "a point moves farther between two readings than a face can; kept as it is, so correct it or "
+      "leave its cells empty");
+  return notes;
+}
+
+std::optional<Note> far_points_warning(const motion::Motion& steady) {
+  std::vector<motion::WildSample> far;
+  std::vector<std::string> bounds;
+  for (std::size_t p = 0; p < steady.names.size(); ++p) {
+    const auto row = Eigen::Index(p);
+    motion::WildSample most{steady.names[p], 0, 0};
+    std::optional<Eigen::RowVector3d> first;
+    for (std::size_t k = 0; k < steady.positions.size(); ++k) {
+      if (!steady.positions[k].row(row).allFinite()) continue;
+      if (!first) first = steady.positions[k].row(row);
+      const double far_m = (steady.positions[k].row(row) - *first).norm();
+      if (far_m > most.off_m) most = {steady.names[p], k, far_m};
+    }
+    if (most.off_m > reach_m(most.point)) far.push_back(most);
+  }
+  if (far.empty()) return std::nullopt;
+  std::ranges::stable_sort(far, std::ranges::greater{}, [](const motion::WildSample& reading) {
+    return reading.off_m / reach_m(reading.point);
+  });
+  const motion::WildSample& worst = far.front();
+  return make_warning(
+      "recording.far_points",
+      fmt::format("a point goes farther from its first place than this part of a face can (for {}: "
+                  "{:g} mm); correct the readings or leave their cells empty: {}",
+                  worst.point, 1e3 * reach_m(worst.point), first_readings(steady, far)));
+}
+
+}  // namespace hyperex::session

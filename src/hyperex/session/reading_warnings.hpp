@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <vector>
+
+#include "hyperex/core/note.hpp"
+#include "hyperex/motion/wild_samples.hpp"
+
+namespace hyperex::session {
+
+/// Of single readings of a recording, in this order:
+/// * `recording.wild_samples`: those that were left out, because no face moves like that,
+/// * `recording.zeros`: those of (0, 0, 0), which were taken as missing,
+/// * `recording.lone_samples`: those of a slow recording that jump away and back alone,
+/// * `recording.jumps`: those to which a point moves as no face does, and which were kept.
+/// Each names the first three, and says how many more there are.
+std::vector<Note> reading_warnings(const motion::MendedMotion& mended);
+
+/// `recording.far_points`: points that go farther from their first place than this part of a face
+/// can. `steady`: without head pose, in the size of a person (m).
+std::optional<Note> far_points_warning(const motion::Motion& steady);
+
+}  // namespace hyperex::session
