@@ -18,6 +18,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/expression/wild_weights.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
@@ -219,7 +220,12 @@ motion::Motion read(const SymmetryOptions& options, const fs::path& file,
   if (options.rig.empty()) return motion::read_motion(file, unit);
   const expression::FaceModel rig =
       session::rig_face(options.rig, KeptResults(user_cache_folder()));
-  const expression::BlendShapes shapes = expression::read_arkit(file);
+  const expression::MendedShapes mended =
+      expression::without_wild_weights(expression::read_arkit(file));
+  for (const std::string& doubt :
+       {wild_weights_sentence(mended), doubtful_weights_sentence(mended)})
+    if (!doubt.empty()) spdlog::warn("{}", doubt);
+  const expression::BlendShapes& shapes = mended.shapes;
   std::vector<std::string> notes = shapes.notes;
   notes.insert(notes.end(), shapes.misspelt.begin(), shapes.misspelt.end());
   motion::Motion motion = expression::motion_of(shapes, rig, notes);

@@ -16,15 +16,20 @@ class RigRoundTrip : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    std::string weights = "time_s,mouthSmileLeft,jawOpen\n";
-    for (int k = 0; k <= 30; ++k) {
-      const double share = (1 - std::cos(2 * std::numbers::pi * k / 30)) / 2;
-      weights += fmt::format("{},{},{}\n", k / 30.0, 0.8 * share, 0.3 * share);
-    }
-    put(in("weights.csv"), weights);
+    put(in("weights.csv"), weights());
+    put(in("wrong.csv"), weights(5));
     put(in("scene.toml"),
         "scan.file = \"embedded\"\nmotion = { arkit = \"weights.csv\", rig = \"rig.glb\" }\n"
         "mesh = { element_size_mm = 6 }\n");
+  }
+  /// A smile and an opening jaw; the smile's weight is 1 in the sample `wrong`.
+  static std::string weights(int wrong = -1) {
+    std::string text = "time_s,mouthSmileLeft,jawOpen\n";
+    for (int k = 0; k <= 30; ++k) {
+      const double share = (1 - std::cos(2 * std::numbers::pi * k / 30)) / 2;
+      text += fmt::format("{},{},{}\n", k / 30.0, k == wrong ? 1 : 0.8 * share, 0.3 * share);
+    }
+    return text;
   }
   void make_rig() const {
     const Outcome made = call(
@@ -56,6 +61,11 @@ TEST_F(RigRoundTrip, TheTissueFollowsTheRigByTheMillimetresThatItMeasures) {
   make_rig();
   const Outcome measured = call("symmetry weights.csv --rig rig.glb --excursions rig.csv");
   ASSERT_EQ(measured.status, 0) << measured.err;
+  const Outcome mended = call("symmetry wrong.csv --rig rig.glb --excursions mended.csv");
+  ASSERT_EQ(mended.status, 0) << mended.err;
+  EXPECT_THAT(mended.err, HasSubstr("wrong.csv:7, mouthSmileLeft at 0.167 s"));
+  EXPECT_NEAR(cell("mended.csv", "cheilion", "excursion_L_mm"),
+              cell("rig.csv", "cheilion", "excursion_L_mm"), 0.1);
   const Outcome run = call("run scene.toml --out out --no-cache");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("0.0 mm rms apart before the smooth correction"))

@@ -110,6 +110,23 @@ void write_weights(const fs::path& folder) {
   put(folder / "weights.csv", table.str());
 }
 
+/// A slow smile at 30 Hz whose weight is wrong in one sample.
+void write_smile_with_a_spike(const fs::path& folder, int wrong) {
+  std::ostringstream table;
+  table << "time_s,mouthSmileLeft,mouthSmileRight\n";
+  for (int k = 0; k < 16; ++k)
+    table << k / 30.0 << ',' << (k == wrong ? 1 : k / 50.0) << ',' << k / 50.0 << '\n';
+  put(folder / "spike.csv", table.str());
+}
+
+void let_a_weight_jump(const fs::path& folder) {
+  write_smile_with_a_spike(folder, 8);
+}
+
+void end_with_a_weight_that_jumps(const fs::path& folder) {
+  write_smile_with_a_spike(folder, 15);
+}
+
 void enlarge_the_motion(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (Points& sample : m.positions) sample *= 1.5;
@@ -188,6 +205,10 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.zeros", true, "", lose_a_marker},
       {"recording.lone_samples", true, "", let_a_marker_jump_slowly},
       {"recording.far_points", true, "", let_a_marker_drift},
+      {"recording.wild_weights", true, "motion.file=\nmotion.arkit=\"spike.csv\"",
+       let_a_weight_jump},
+      {"recording.weight_jumps", true, "motion.file=\nmotion.arkit=\"spike.csv\"",
+       end_with_a_weight_that_jumps},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",

@@ -44,6 +44,12 @@ constexpr NoteKind kKinds[] = {
   warning("recording.far_points", "motion.file",
     "A point goes farther from its first place than this part of a face can: corners of the mouth "
     "38 mm, upper lip 30, brows 25, nose and eyes 20, lower lip and chin 75."),
+  warning("recording.wild_weights", "motion.arkit",
+    "A weight, not of eyes or tongue, jumps by more than 0.3 and comes back in one reading, at 24 Hz "
+    "or more. The reading was left out and interpolated."),
+  warning("recording.weight_jumps", "motion.arkit",
+    "A weight jumps in a single reading that may be real: by more than 0.3 at an end of the "
+    "recording, or below 24 Hz by more, in proportion. The reading was kept."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",

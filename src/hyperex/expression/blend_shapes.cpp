@@ -73,6 +73,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   });
   BlendShapes out;
   out.file = file;
+  out.lines = table.lines;
   const auto rows = table.values.rows();
   out.time_s.assign(static_cast<std::size_t>(rows), kNan);
   std::optional<int> time;
@@ -101,6 +102,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     name[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(name[0])));
     if (std::ranges::find(arkit_shapes(), name) != arkit_shapes().end()) {
       out.names.push_back(name);
+      out.columns.push_back(table.names[c]);
       columns.push_back(static_cast<int>(c));
     } else if (static_cast<int>(c) != time.value_or(-1) && name != "timecode") {
       left_out.push_back(table.names[c]);
@@ -127,6 +129,7 @@ BlendShapes read_openface(const std::filesystem::path& file) {
   const io::CsvTable table = io::read_csv(file);
   BlendShapes out;
   out.file = file;
+  out.lines = table.lines;
   const auto rows = table.values.rows();
   const int time = table.column("timestamp");
   for (Eigen::Index k = 0; k < rows; ++k) out.time_s.push_back(table.values(k, time));
@@ -134,21 +137,25 @@ BlendShapes read_openface(const std::filesystem::path& file) {
   out.weights.resize(rows, 0);
   bool any = false;
   for (const auto& row : table_rows(openface_arkit_table(), "action_unit,blend_shape,share")) {
-    const auto column = table.find(row.at(0) + "_r");
+    const std::string column_name = row.at(0) + "_r";
+    const auto column = table.find(column_name);
     if (!column) continue;
     any = true;
     for (const auto& name : arkit_names(row.at(1))) {
       auto at = std::find(out.names.begin(), out.names.end(), name) - out.names.begin();
       if (at == static_cast<std::ptrdiff_t>(out.names.size())) {
         out.names.push_back(name);
+        out.columns.push_back(column_name);
         out.weights.conservativeResize(Eigen::NoChange, out.weights.cols() + 1);
         out.weights.rightCols(1).setZero();
+      } else {
+        out.columns[static_cast<std::size_t>(at)] += " and " + column_name;
       }
       out.weights.col(at) += table.values.col(*column) / kMostIntensity * table_number(row.at(2));
     }
     for (Eigen::Index k = 0; k < rows; ++k)
       if (const double r = table.values(k, *column); r < 0 || r > kMostIntensity)
-        throw InputError({file, table.lines[static_cast<std::size_t>(k)], row.at(0) + "_r",
+        throw InputError({file, table.lines[static_cast<std::size_t>(k)], column_name,
                           fmt::format("{:g}", r), "an intensity from 0 to 5"});
   }
   if (!any)
@@ -205,6 +212,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   motion::Motion out;
   out.source = shapes.file.string();
   out.time_s = shapes.time_s;
+  out.lines = shapes.lines;
   for (const auto& [name, vertices] : model.landmarks) out.names.push_back(name);
   for (Eigen::Index k = 0; k < alpha.rows(); ++k) {
     Points at = Points::Constant(static_cast<Eigen::Index>(out.names.size()), 3, kNan);

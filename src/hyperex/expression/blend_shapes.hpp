@@ -16,6 +16,10 @@ struct BlendShapes {
   std::vector<double> time_s;      ///< N values, strictly increasing
   Eigen::MatrixXd weights;  ///< N x |names|, 0 to 1; a row of NaN where the face was not seen
   std::filesystem::path file;
+  std::vector<int> lines;  ///< line of `file` of each sample, for messages; empty where not known
+  /// What each weight is called in `file`, as "JawOpen" or "AU10_r and AU25_r"; empty where not
+  /// known.
+  std::vector<std::string> columns;
   std::vector<std::string> notes;  ///< assumptions and omissions, one sentence each
   /// Ignored columns whose names look misspelt: "column mouthSmilRight is no ...; did you mean
   /// ...?"

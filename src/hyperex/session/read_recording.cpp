@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "hyperex/expression/weight_doubts.hpp"
+#include "hyperex/expression/wild_weights.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -56,9 +57,10 @@ void warn_of_weights(const scene::MotionOptions& options, const expression::Blen
 /// The points of a face model that recorded expressions move.
 motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
   const scene::MotionOptions& options = scene.motion;
-  const expression::BlendShapes shapes = options.arkit.empty()
-                                             ? expression::read_openface(options.openface)
-                                             : expression::read_arkit(options.arkit);
+  const expression::MendedShapes mended = expression::without_wild_weights(
+      options.arkit.empty() ? expression::read_openface(options.openface)
+                            : expression::read_arkit(options.arkit));
+  const expression::BlendShapes& shapes = mended.shapes;
   std::vector<std::string> notes = shapes.notes;
   std::optional<expression::FaceModel> own;
   const expression::FaceModel& model = face_model(scene, own);
@@ -66,6 +68,10 @@ motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
   const char* key = options.arkit.empty() ? "motion.openface" : "motion.arkit";
   for (const auto& note : notes)
     in.notes.push_back(make_note("recording.expressions", "motion: " + note, key));
+  for (const auto& [id, sentence] :
+       {std::pair{"recording.wild_weights", wild_weights_sentence(mended)},
+        {"recording.weight_jumps", doubtful_weights_sentence(mended)}})
+    if (!sentence.empty()) in.notes.push_back(make_warning(id, sentence, key));
   warn_of_weights(options, shapes, model, in);
   return m;
 }
@@ -121,6 +127,19 @@ void note_head(const motion::StabilisedMotion& steady, Inputs& in) {
                     in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg)));
 }
 
+/// Wild readings of recorded points are mended. Points that weights move are only reported as
+/// jumps: the weights were mended before, and mending single points would distort the face.
+motion::MendedMotion mended_points(const scene::Scene& scene, const motion::Motion& m) {
+  motion::MendedMotion out = motion::without_wild_samples(m);
+  if (scene.given.motion || !of_weights(scene)) return out;
+  for (const motion::WildSample& wild : out.wild)
+    if (wild.off_m > motion::kWildJump_m) out.jumps.push_back(wild);
+  std::ranges::stable_sort(out.jumps, {}, &motion::WildSample::sample);
+  for (auto* readings : {&out.wild, &out.zeros, &out.lone}) readings->clear();
+  out.motion = m;
+  return out;
+}
+
 /// A quick reading of a camera's recording has its first face alone.
 bool is_read_whole(const scene::Scene& scene, Extent extent) {
   return scene.motion.recording.empty() || extent == Extent::full;
@@ -171,7 +190,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
       add(in.notes, doubt);
     }
   }
-  const motion::MendedMotion mended = motion::without_wild_samples(m);
+  const motion::MendedMotion mended = mended_points(scene, m);
   std::ranges::copy(reading_warnings(mended), std::back_inserter(in.notes));
   // Before a reading that is far off spoils the head's pose.
   motion::check_reach_beside_head(mended.motion);

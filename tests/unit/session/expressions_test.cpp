@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recorded expressions move a face model whose head is still: no part of their motion may be
 // attributed to the head.
-#include <gtest/gtest.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
 
 #include "hyperex/session/inputs.hpp"
+#include "support/note_matchers.hpp"
+#include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {
 using namespace scene;
@@ -25,6 +28,57 @@ TEST(Expressions, LeaveTheHeadWhereItIs) {
   for (const char* name : {"ibug68_42", "ibug68_45", "ibug68_27"})
     EXPECT_LT(travel_m(name), 2e-4) << name;
   EXPECT_GT(travel_m("ibug68_48"), 0.01);
+}
+
+/// A jaw that opens by 0.3 within half a second, at 60 Hz; its weight is 1 in some samples.
+Inputs with_wrong_jaw(int first, int count) {
+  const SceneFolder folder;
+  std::string text = "time_s,jawOpen\n";
+  for (int k = 0; k < 60; ++k)
+    text += fmt::format("{},{}\n", k / 60.0,
+                        k >= first && k < first + count ? 1 : std::min(0.3, 0.01 * k));
+  folder.write("jaw.csv", text);
+  return read_inputs(read_scene(
+      folder.write("jaw.toml", "scan.file = \"embedded\"\nmotion.arkit = \"jaw.csv\"\n")));
+}
+
+double greatest_difference_mm(const Inputs& a, const Inputs& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.motion.motion.positions.size(); ++k)
+    most = std::max(
+        most,
+        1e3 * (a.motion.motion.positions[k] - b.motion.motion.positions[k]).cwiseAbs().maxCoeff());
+  return most;
+}
+
+TEST(Expressions, AWrongWeightIsMendedBeforeItMovesTheFace) {
+  using namespace test;
+  using testing::AllOf;
+  using testing::Contains;
+  using testing::Not;
+  const Inputs in = with_wrong_jaw(20, 1);
+  EXPECT_THAT(in.notes,
+              Contains(AllOf(is_warning("recording.wild_weights"), is_about("motion.arkit"),
+                             says("jaw.csv:22, jawOpen at 0.333 s: by +0.79"))));
+  EXPECT_THAT(in.notes, Not(Contains(has_id("recording.wild_samples"))));
+  EXPECT_THAT(in.notes, Not(Contains(has_id("recording.jumps"))));
+  EXPECT_LT(greatest_difference_mm(in, with_wrong_jaw(0, 0)), 1e-6);
+}
+
+/// Mending the points that go far, and not the others, would give a face that nobody makes.
+TEST(Expressions, PointsThatWeightsMoveAreNotMendedOneByOne) {
+  using namespace test;
+  const Inputs in = with_wrong_jaw(20, 2);
+  EXPECT_THAT(in.notes, testing::Contains(testing::AllOf(is_warning("recording.jumps"),
+                                                         says("jaw.csv:22, point "))));
+  EXPECT_THAT(in.notes, testing::Not(testing::Contains(has_id("recording.wild_samples"))));
+  const auto& motion = in.motion.motion;
+  const int chin = motion.index_of("ibug68_8"), corner = motion.index_of("ibug68_48");
+  const auto moved_m = [&](int point, std::size_t k) {
+    return (motion.positions[k].row(point) - motion.positions[0].row(point)).norm();
+  };
+  for (const int point : {chin, corner})
+    EXPECT_NEAR(moved_m(point, 20) / moved_m(point, 30), 1 / 0.3, 0.3) << point;
 }
 
 }  // namespace
