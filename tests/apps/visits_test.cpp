@@ -53,6 +53,27 @@ TEST_F(Visits, WriteAPageAndATable) {
   EXPECT_EQ(read_file(in("v.csv")), before);
 }
 
+TEST_F(Visits, LeaveOutAWildReadingAndSaySo) {
+  ASSERT_EQ(call("visits v.toml --table sound.csv").status, 0);
+  motion::Motion wild = motion::read_motion(in("after.csv"));
+  wild.positions[wild.positions.size() / 2](wild.index_of("cheilion_L"), 2) += 0.05;
+  fs::create_directory(in("Jane"));
+  motion::write_motion_csv(in("Jane/after.csv"), wild);
+  put("jitter_mm = 0\n");
+  std::string scene = read_file(in("v.toml"));
+  scene.replace(scene.find("after.csv"), 9, "Jane/after.csv");
+  std::ofstream(in("v.toml")) << scene;
+  const Outcome outcome = call("visits v.toml --out v.html --table v.csv");
+  ASSERT_EQ(outcome.status, 0) << outcome.err;
+  EXPECT_THAT(outcome.out + outcome.err, HasSubstr("jumps away and back"));
+  const std::string page = read_file(in("v.html"));
+  EXPECT_THAT(page, HasSubstr("jumps away and back"));
+  EXPECT_EQ(page.find("Jane"), std::string::npos);
+  const io::TextTable sound = io::read_text_table(in("sound.csv")),
+                      mended = io::read_text_table(in("v.csv"));
+  ASSERT_EQ(mended.rows.size(), sound.rows.size());
+}
+
 TEST_F(Visits, WarnOfJitterThatIsNotKnown) {
   put("");
   const Outcome outcome = call("visits v.toml");

@@ -47,7 +47,7 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
         motion::stabilise(motion, {.rigid_points = visits.rigid_points});
     motion::check_reach(steady.motion);
     if (const auto far = session::far_points_warning(steady.motion))
-      face.remarks.push_back(far->text);
+      face.remarks.push_back(with_file_name(far->text, motion.source));
     face.head_known = true;
     return steady;
   } catch (const InputError& error) {
@@ -284,10 +284,10 @@ MeasuredFace measure_recording(const fs::path& recording, const VisitEntry& visi
   motion::check_reach_beside_head(mended.motion);
   MeasuredFace face = measure(mended.motion, visits, visit.jitter_m, first);
   for (const Note& warning : session::reading_warnings(mended))
-    face.remarks.push_back(warning.text);
+    face.remarks.push_back(with_file_name(warning.text, mended.motion.source));
   for (const auto& warning : {session::exchanged_warning(mended.motion, session::average_face()),
                               session::timing_warning(mended.motion)})
-    if (warning) face.remarks.push_back(warning->text);
+    if (warning) face.remarks.push_back(with_file_name(warning->text, mended.motion.source));
   return face;
 }
 
