@@ -179,6 +179,8 @@ const std::vector<NotedScene>& noted_scenes() {
        write_skull_that_sticks_out},
       {"anatomy.ct_fits_badly", true, "anatomy.ct=\".\"", write_ct_of_another_face},
       {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},
+      {"region.idle", false, "region.blend_mm=1", nullptr},
+      {"drive.by_key", false, "support.field_kpa_per_mm=5", nullptr},
       {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
       {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
        press_the_lips},
