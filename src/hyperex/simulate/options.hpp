@@ -259,7 +259,7 @@ struct DriveOptions {
              "much again where they stay closed. 0 takes the nearest node alone.",
              {.unit = kMillimetres, .bounds = {0, 0.03}});
     v.option(HX_MEMBER(still_points),
-             "Points of the skin that are fixed.");
+             "Landmarks of the skin that are fixed; none of them may be driven.");
     v.option(HX_MEMBER(gain), "Multiplies all displacements; 1 as recorded.",
              {.bounds = {0, 5}, .key = "motion.gain"});
   }
