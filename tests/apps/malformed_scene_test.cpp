@@ -47,6 +47,8 @@ const std::vector<Fault> kScenes{
     key("SettingWithoutValue", "tissue.young_kpa", {"tissue.young_kpa", "KEY=VALUE"}),
     key("MissingScan", "scan.file=nobody.ply", {"scan.file", "nobody.ply", "exist"}),
     key("NoSuchLandmark", "drive.still_points=[\"antenna\"]", {"drive.still_points", "antenna"}),
+    key("StillPointThatIsDriven", "drive.still_points=[\"ibug68_57\"]",
+        {"drive.still_points", "ibug68_57", "not driven"}),
     key("TimeStandsStill", "motion.time_scale=0", {"motion.time_scale", "0.05", "20"}),
     {"GainOnNoPoint",
      [](const In& in) {

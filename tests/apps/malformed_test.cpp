@@ -349,7 +349,7 @@ const std::vector<Fault> kMotions{
        replace_in(in("scene.toml"), "motion.csv\"",
                   "motion.csv\"\nrigid_points = [\"ibug68_27\", \"ibug68_36\", \"crown\"]");
      },
-     {"motion.csv", "crown"}},
+     {"scene.toml:", "motion.rigid_points", "motion.csv", "crown"}},
     {"SymmetryOfAnEmptyMotion",
      [](const In& in) { put(in("motion.csv"), "\n"); },
      {"motion.csv"},

@@ -101,6 +101,10 @@ void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
 
+void open_wide(const fs::path& folder) {
+  write_opening(folder, 0, 81);
+}
+
 /// A smile, a shape that the canonical face lacks, and a column with a misspelt name.
 void write_weights(const fs::path& folder) {
   std::ostringstream table;
@@ -224,7 +228,14 @@ const std::vector<NotedScene>& noted_scenes() {
       {"anatomy.bone_outside", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
        write_skull_that_sticks_out},
       {"anatomy.ct_fits_badly", true, "anatomy.ct=\".\"", write_ct_of_another_face},
+      {"head.pose_unknown", true,
+       "motion.rigid_points=[\"ibug68_48\", \"ibug68_57\", \"ibug68_54\"]", open_wide},
+      {"head.points_not_rigid", true,
+       "motion.rigid_points=[\"ibug68_27\", \"ibug68_36\", \"ibug68_45\", \"ibug68_57\"]",
+       open_wide},
       {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},
+      {"region.idle", false, "region.blend_mm=1", nullptr},
+      {"drive.by_key", false, "support.field_kpa_per_mm=5", nullptr},
       {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
       {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
        press_the_lips},

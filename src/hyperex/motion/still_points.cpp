@@ -2,7 +2,11 @@
 #include "hyperex/motion/still_points.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
 
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/stabilise.hpp"
@@ -44,6 +48,71 @@ Eigen::MatrixXd distance_changes(const Motion& motion, const std::vector<int>& p
   return most;
 }
 
+/// The points at evenly spaced samples, each coordinate the median of at most five samples about
+/// it; NaN where none of these is measured.
+std::vector<Points> smoothed_samples(const Motion& motion, const std::vector<int>& points) {
+  const std::size_t count = motion.positions.size();
+  const std::size_t beside = std::min<std::size_t>(2, (count - 1) / 4);
+  const std::size_t step = std::max<std::size_t>(1, count / kMostStillSamples);
+  std::vector<Points> out;
+  for (std::size_t k = 0; k < count; k += step) {
+    const std::size_t first = std::min(k - std::min(k, beside), count - 1 - 2 * beside);
+    Points at(Eigen::Index(points.size()), 3);
+    for (std::size_t p = 0; p < points.size(); ++p)
+      for (int axis = 0; axis < 3; ++axis) {
+        std::vector<double> seen;
+        for (std::size_t j = first; j <= first + 2 * beside; ++j)
+          if (const double x = motion.positions[j](points[p], axis); std::isfinite(x))
+            seen.push_back(x);
+        at(Eigen::Index(p), axis) =
+            seen.empty() ? std::numeric_limits<double>::quiet_NaN() : median(std::move(seen));
+      }
+    out.push_back(std::move(at));
+  }
+  return out;
+}
+
+/// How far the distance between each pair of points changes in 95 % of the samples; 0 where the two
+/// are never measured together.
+Eigen::MatrixXd usual_changes(const std::vector<Points>& samples) {
+  constexpr double share = 0.95;
+  const Eigen::Index count = samples.front().rows();
+  Eigen::MatrixXd changes = Eigen::MatrixXd::Zero(count, count);
+  for (Eigen::Index i = 0; i < count; ++i)
+    for (Eigen::Index j = i + 1; j < count; ++j) {
+      std::vector<double> distances;
+      for (const Points& at : samples)
+        if (const double d = (at.row(i) - at.row(j)).norm(); std::isfinite(d))
+          distances.push_back(d);
+      if (distances.empty()) continue;
+      const double first = distances.front();
+      for (double& d : distances) d = std::abs(d - first);
+      std::ranges::sort(distances);
+      changes(i, j) = changes(j, i) = quantile_of_sorted(distances, share);
+    }
+  return changes;
+}
+
+/// The one of `points` with most changes above `allowed_m`, of several the one whose changes are
+/// larger in sum; -1 where no change is above it.
+Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eigen::Index>& points,
+                           double allowed_m) {
+  std::pair<int, double> most{0, 0};
+  Eigen::Index worst = -1;
+  for (const Eigen::Index i : points) {
+    std::pair<int, double> of_point{0, 0};
+    for (const Eigen::Index j : points) {
+      if (changes(i, j) > allowed_m) ++of_point.first;
+      of_point.second += changes(i, j);
+    }
+    if (of_point.first > 0 && of_point > most) {
+      most = of_point;
+      worst = i;
+    }
+  }
+  return worst;
+}
+
 }  // namespace
 
 std::vector<std::string> find_still_points(const Motion& motion) {
@@ -72,6 +141,26 @@ std::vector<std::string> find_still_points(const Motion& motion) {
     at.row(Eigen::Index(i)) = motion.positions.front().row(row);
   }
   return spread_off_line(at) < kLeastStillSpread ? std::vector<std::string>{} : names;
+}
+
+std::vector<UnsteadyPoint> unsteady_points(const Motion& motion,
+                                           const std::vector<std::string>& names,
+                                           double allowed_m) {
+  std::vector<int> rows;
+  for (const std::string& name : names)
+    if (const int row = motion.index_of(name); row >= 0) rows.push_back(row);
+  if (motion.positions.empty() || rows.empty()) return {};
+  const Eigen::MatrixXd changes = usual_changes(smoothed_samples(motion, rows));
+  std::vector<Eigen::Index> steady;
+  for (Eigen::Index i = 0; i < changes.rows(); ++i) steady.push_back(i);
+  for (Eigen::Index i; (i = most_unsteady(changes, steady, allowed_m)) >= 0;) std::erase(steady, i);
+  if (steady.size() < 2) steady.clear();
+  std::vector<UnsteadyPoint> out;
+  for (Eigen::Index i = 0; i < changes.rows(); ++i)
+    if (const double most = changes.row(i).maxCoeff();
+        most > allowed_m && std::ranges::find(steady, i) == steady.end())
+      out.push_back({motion.names[std::size_t(rows[std::size_t(i)])], most});
+  return out;
 }
 
 bool has_pose_points(const Motion& motion) {

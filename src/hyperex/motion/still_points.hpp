@@ -22,6 +22,21 @@ inline constexpr double kStillPoints_m = 1e-3;
 /// the head pose.
 bool has_pose_points(const Motion& motion);
 
+/// A point that does not keep its distances from others, and the greatest change of one of them.
+struct UnsteadyPoint {
+  std::string name;
+  double change_m = 0;
+};
+
+/// Those of `names` that move against the others, in that order; names that the motion lacks are
+/// left out. The change of a distance is that from the first sample which 95 % of the samples do
+/// not exceed, with points smoothed by a running median against noise. Points are taken out one by
+/// one until no distance changes by more than `allowed_m`: each time the one with most such
+/// distances. Where fewer than two are left, none can be trusted, and all with such a distance are
+/// returned.
+std::vector<UnsteadyPoint> unsteady_points(const Motion& motion,
+                                           const std::vector<std::string>& names, double allowed_m);
+
 /// The points to name as moving with the skull where has_pose_points() is false:
 /// find_still_points().
 std::vector<std::string> proposed_rigid_points(const Motion& motion);

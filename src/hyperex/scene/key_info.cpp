@@ -52,7 +52,7 @@ std::string KeyInfo::expected() const {
     case Kind::path:
       return "the path of a file" + (choices.empty() ? "" : ", or " + in_words(choices));
     case Kind::names:
-      return (least > 0 ? fmt::format("a list of no names, or {} or more different ones", least)
+      return (least > 0 ? fmt::format("a list of {} or more different names, or none", least)
                         : "a list of different names") +
              (choices.empty() ? "" : ", or " + in_words(choices));
     case Kind::places:

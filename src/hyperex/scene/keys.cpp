@@ -68,13 +68,13 @@ const std::vector<Key>& keys() {
   return all;
 }
 
-bool mentions_displacement(const std::string& key) {
-  return key.starts_with("region.") ||
-         (key.starts_with("support.") && !key.starts_with("support.jaw_points"));
+bool needs_displacement(const std::string& key, const nlohmann::json& value) {
+  if (key == "region.measured") return value != "none";
+  return key.starts_with("support.") && key.ends_with("_kpa_per_mm");
 }
 
-bool decides_the_drive(const std::string& key) {
-  return key == "drive.by" || mentions_displacement(key);
+bool decides_the_drive(const std::string& key, const nlohmann::json& value) {
+  return key == "drive.by" || needs_displacement(key, value);
 }
 
 const Key* find_key(const std::string& name) {

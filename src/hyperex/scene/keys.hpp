@@ -74,16 +74,18 @@ const Key* find_key(const std::string& name);  ///< null where there is none
 /// for every other name.
 std::string in_place_of(const std::string& name);
 
-/// Whether a key has a meaning only where displacements drive the face. These are the keys of
-/// [region], and of [support] except jaw_points. (Muscles fit the jaw to all points and need no
-/// jaw_points.)
-bool mentions_displacement(const std::string& key);
+/// Whether a key with this value has no meaning where muscles drive the face: a region.measured
+/// other than "none", and the stiffnesses of [support]. Muscles have stiffnesses of their own in
+/// their place (simulate/load/muscle_tissue.hpp). They use support.border, skull and mandible as
+/// they are given, and fit the jaw to all points, whatever support.jaw_points says. The other keys
+/// of [region] have an effect only beside region.measured.
+bool needs_displacement(const std::string& key, const nlohmann::json& value);
 
-/// Whether a key, if it is given, decides what drives the face: drive.by, and the keys of
-/// mentions_displacement(). Where a scene has variants and none of these keys is given, in the
+/// Whether a key, if it is given with this value, decides what drives the face: drive.by, and the
+/// keys of needs_displacement(). Where a scene has variants and none of these keys is given, in the
 /// scene or in a variant, muscles drive. (A FaceSession also chooses muscles where there are no
 /// variants: session/drive_choice.hpp.)
-bool decides_the_drive(const std::string& key);
+bool decides_the_drive(const std::string& key, const nlohmann::json& value);
 
 /// The expected text for an unknown name: the nearest of `names`, or all of them.
 std::string one_of_names(const std::string& name, const std::vector<std::string>& names);

@@ -165,12 +165,12 @@ void SceneReader::settle_motion() {
 /// Where this is true and the scene has variants, muscles drive (settle_drive()).
 bool SceneReader::drive_is_open() const {
   for (const auto& [key, given] : given_)
-    if (decides_the_drive(key)) return false;
+    if (decides_the_drive(key, given.value)) return false;
   if (variants_.is_array())
     for (const json& block : variants_) {
       if (!block.is_object()) continue;
       for (const auto& [key, value] : changes_of(block))
-        if (decides_the_drive(key)) return false;
+        if (decides_the_drive(key, value)) return false;
     }
   return true;
 }

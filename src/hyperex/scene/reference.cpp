@@ -91,6 +91,8 @@ std::string row(const std::string& name, const KeyInfo& key, const std::string& 
 
 std::string default_of(const Key& key) {
   if (key.required) return "*required*";
+  // A scene chooses (session/drive_choice.hpp), and does not take the struct's value.
+  if (key.name == "drive.by") return code("\"muscles\"") + ", see its meaning";
   const nlohmann::json value = key.get(Scene{});
   if (key.kind == Kind::rows || (key.kind == Kind::path && value == "")) return "";
   std::string text;

@@ -4,6 +4,7 @@
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/run_cost.hpp"
@@ -16,6 +17,7 @@ std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   const auto expected = checked_cost(scene, inputs, Extent::quick);
   if (cost && expected) *cost = sentence_of(*expected);
   std::vector<Note> notes = std::move(inputs.notes);
+  append(notes, drive_warnings(scene));
   const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||
       std::any_of(scene.variants.begin(), scene.variants.end(),

@@ -7,6 +7,7 @@
 
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/unknown_names.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -33,20 +34,51 @@ std::string unknown_landmark(const InputProblem& problem) {
   return name;
 }
 
-/// Problems for those `names` that are not points of the recording or not landmarks of the scan.
-std::vector<InputProblem> unknown_names(const scene::Scene& scene, const Inputs& in,
-                                        const std::vector<std::string>& names, const char* key,
-                                        bool in_motion) {
+/// "names of landmarks of the scan (x is none); did you mean y?", where `of_what` is "landmarks of
+/// the scan".
+std::string expected_names(const std::string& of_what, const std::string& wrong,
+                           const std::vector<std::string>& there_are) {
+  return fmt::format("names of {} ({} is none){}", of_what, wrong, did_you_mean(wrong, there_are));
+}
+
+/// Problems for those `names` that are not points of the recording.
+std::vector<InputProblem> names_of_no_point(const scene::Scene& scene, const motion::Motion& m,
+                                            const std::vector<std::string>& names,
+                                            const char* key) {
   std::vector<InputProblem> problems;
   for (const auto& name : names)
-    if (in_motion ? in.motion.motion.index_of(name) < 0 : !in.landmarks.count(name))
+    if (m.index_of(name) < 0)
       problems.push_back(scene::problem_at(
-          scene, key,
-          fmt::format("names of {} ({} is none){}",
-                      in_motion ? "points in the recording " + in.motion.motion.source
-                                : "landmarks of the scan",
-                      name,
-                      did_you_mean(name, in_motion ? in.motion.motion.names : landmarks_of(in)))));
+          scene, key, expected_names("points in the recording " + m.source, name, m.names)));
+  return problems;
+}
+
+/// The same for landmarks of the scan.
+std::vector<InputProblem> names_of_no_landmark(const scene::Scene& scene, const Inputs& in,
+                                               const std::vector<std::string>& names,
+                                               const char* key) {
+  std::vector<InputProblem> problems;
+  for (const auto& name : names)
+    if (!in.landmarks.contains(name))
+      problems.push_back(scene::problem_at(
+          scene, key, expected_names("landmarks of the scan", name, landmarks_of(in))));
+  return problems;
+}
+
+/// Problems for still points that are driven, by either of their names: they would move.
+std::vector<InputProblem> driven_still_points(const scene::Scene& scene, const Inputs& in) {
+  const auto drives = [&](const std::string& name) {
+    return !name.empty() && std::ranges::find(in.driven, name) != in.driven.end();
+  };
+  std::vector<InputProblem> problems;
+  for (const std::string& name : scene.drive.still_points) {
+    const std::string other = face::other_name(name);
+    if (!drives(name) && !drives(other)) continue;
+    problems.push_back(scene::problem_at(
+        scene, "drive.still_points",
+        fmt::format("points that are not driven ({} is{}); drive.points chooses the driven ones",
+                    name, drives(name) ? "" : ", as " + other)));
+  }
   return problems;
 }
 
@@ -56,15 +88,16 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
   std::vector<std::string> thick;
   for (const auto& p : scene.mesh.depths) thick.push_back(p.landmark);
   std::vector<InputProblem> all;
-  const auto add = [&](const std::vector<std::string>& names, const char* key, bool in_motion) {
-    const auto more = unknown_names(scene, in, names, key, in_motion);
+  const auto add = [&](const std::vector<InputProblem>& more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  add(in.driven, "drive.points", true);
-  add(scene.support.jaw_points, "support.jaw_points", true);
-  add(scene.region.measured_points, "region.measured_points", true);
-  add(scene.drive.still_points, "drive.still_points", false);
-  add(thick, "mesh.thickness_point", false);
+  const motion::Motion& m = in.motion.motion;
+  add(names_of_no_point(scene, m, in.driven, "drive.points"));
+  add(names_of_no_point(scene, m, scene.support.jaw_points, "support.jaw_points"));
+  add(names_of_no_point(scene, m, scene.region.measured_points, "region.measured_points"));
+  add(names_of_no_landmark(scene, in, scene.drive.still_points, "drive.still_points"));
+  add(driven_still_points(scene, in));
+  add(names_of_no_landmark(scene, in, thick, "mesh.thickness_point"));
   for (const auto& problem : tissue::problems_of(scene.tissue, in.landmarks))
     all.push_back(scene::problem_at(scene, "tissue." + problem.key, problem.expected));
   for (InputProblem& problem : all) {
@@ -74,6 +107,12 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
     problem.key = owner + problem.key;
   }
   if (!all.empty()) throw InputError(all);
+}
+
+void check_rigid_points(const scene::Scene& scene, const motion::Motion& m) {
+  const auto problems =
+      names_of_no_point(scene, m, scene.motion.rigid_points, "motion.rigid_points");
+  if (!problems.empty()) throw InputError(problems);
 }
 
 void check_regions(const scene::Scene& scene, const std::string& owner) {
@@ -100,7 +139,7 @@ void check_element_size(const scene::Scene& scene, const Inputs& in) {
                     1e3 * share_of_mouth * mouth_m)));
 }
 
-void note_unknown_landmarks(const scene::Scene& scene, const io::Landmarks& given, Inputs& in) {
+void note_names_of_no_landmark(const scene::Scene& scene, const io::Landmarks& given, Inputs& in) {
   std::vector<std::string> unknown = anatomy::unknown_landmarks(given);
   std::erase_if(unknown, [&](const std::string& name) {
     return in.motion.motion.index_of(name) >= 0 ||

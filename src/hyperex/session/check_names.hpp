@@ -6,9 +6,12 @@
 
 namespace hyperex::session {
 
-/// Throws InputError for names of points, landmarks and regions that do not exist and for invalid
-/// tissue. `owner` precedes the keys: "variant[0].".
+/// Throws InputError for names of points, landmarks and regions that do not exist, for still points
+/// that are driven, and for invalid tissue. `owner` precedes the keys: "variant[0].".
 void check_names(const scene::Scene& scene, const Inputs& in, const std::string& owner = "");
+
+/// Throws InputError for motion.rigid_points that the recording `m` does not have.
+void check_rigid_points(const scene::Scene& scene, const motion::Motion& m);
 
 /// The part of check_names() that needs no landmarks: throws InputError for regions that do not
 /// exist.

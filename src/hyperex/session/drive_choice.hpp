@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <string>
+#include <vector>
 
 #include "hyperex/core/note.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -14,8 +15,14 @@ struct DriveChoice {
   Note note() const;  ///< `drive.chosen`
 };
 
-/// What drives a scene: drive.by where it is given; else displacement where keys of [support] or
-/// [region] are given that belong to it; else, with variants, what these have; else muscles.
+/// What drives a scene: drive.by where it is given; else displacement where a key is given that
+/// muscles do not use (scene::needs_displacement()); else, with variants, what these have; else
+/// muscles.
 DriveChoice drive_choice(const scene::Scene& scene);
+
+/// `drive.by_key`, where another key than drive.by makes displacement drive; and `region.idle`,
+/// which names given keys of [region] that have no effect, as neither the scene nor a variant has
+/// region.measured.
+std::vector<Note> drive_warnings(const scene::Scene& scene);
 
 }  // namespace hyperex::session

@@ -46,7 +46,10 @@ void FaceSession::Impl::note_base() {
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
   std::vector<Note> out = notes_of(inputs.notes, severity);
-  if (severity == Severity::note) out.push_back(drive.note());
+  if (severity == Severity::note)
+    out.push_back(drive.note());
+  else
+    append(out, drive_warnings(scene));
   return out;
 }
 

@@ -2,6 +2,7 @@
 #include "hyperex/session/read_recording.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <iterator>
@@ -16,8 +17,10 @@
 #include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/session/check_names.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
@@ -113,12 +116,41 @@ void check_point_gains(const scene::Scene& scene, const motion::Motion& m) {
   if (!problems.empty()) throw InputError(problems);
 }
 
-void note_head(const motion::StabilisedMotion& steady, Inputs& in) {
+/// Stated points that move against each other do not all move with the skull alone.
+std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion::Motion& m) {
+  constexpr double most_m = 1.5e-3;  // skin over bone gives by up to 1 mm, and readings jitter
+  constexpr std::size_t most_named = 8;
+  const auto moving = motion::unsteady_points(m, scene.motion.rigid_points, most_m);
+  if (moving.empty()) return std::nullopt;
+  std::vector<std::string> named;
+  for (const motion::UnsteadyPoint& point : moving)
+    if (named.size() < most_named)
+      named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.change_m));
+  if (moving.size() > named.size())
+    named.push_back(fmt::format("and {} more", moving.size() - named.size()));
+  return make_warning(
+      "head.points_not_rigid",
+      fmt::format("points of motion.rigid_points do not keep their distances from each other, as "
+                  "points fixed to the skull do: {}; name points in their place that do not move "
+                  "with the expression, or none",
+                  fmt::join(named, ", ")));
+}
+
+void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady, Inputs& in) {
   const auto greatest = [](const std::vector<double>& v) { return *std::ranges::max_element(v); };
   in.head_shift_uncertainty_mm = 1e3 * greatest(steady.shift_uncertainty_m);
   in.head_turn_uncertainty_deg = greatest(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
-  constexpr double worth_a_note_mm = 1;
-  if (in.head_shift_uncertainty_mm > worth_a_note_mm)
+  constexpr double worth_a_note_mm = 1, unknown_mm = 3;
+  if (in.head_shift_uncertainty_mm > unknown_mm)
+    in.notes.push_back(make_warning(
+        "head.pose_unknown",
+        fmt::format(
+            "the head's pose is not known: its error may reach {:.1f} mm and {:.1f} degrees "
+            "(95 %), which count as expression; name {} in motion.rigid_points that do not "
+            "move with the expression",
+            in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg,
+            scene.motion.rigid_points.empty() ? "points" : "other points")));
+  else if (in.head_shift_uncertainty_mm > worth_a_note_mm)
     in.notes.push_back(make_note(
         "head.pose_uncertain",
         fmt::format("the head's pose is uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), as "
@@ -205,12 +237,15 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   motion::StabiliseOptions options;
   options.rigid_points = scene.motion.rigid_points;
   // Expressions move a face model, whose head stays where it is.
-  auto steady = of_weights(scene) ? motion::with_still_head(filled.motion)
-                                  : motion::stabilise(filled.motion, options);
+  const bool still_head = of_weights(scene);
+  if (!still_head) check_rigid_points(scene, filled.motion);
+  auto steady = still_head ? motion::with_still_head(filled.motion)
+                           : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;
   motion::check_reach(steady.motion);
   add(in.notes, far_points_warning(steady.motion));
-  note_head(steady, in);
+  note_head(scene, steady, in);
+  if (!still_head) add(in.notes, rigid_points_warning(scene, filled.motion));
   if (whole) {
     in.pose_variance =
         metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);

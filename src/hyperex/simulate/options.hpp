@@ -32,6 +32,8 @@ struct RegionOptions {
   bool operator==(const RegionOptions&) const = default;
 
   static constexpr const char* about = "What follows the recording directly and what is simulated.";
+  /// Of the options that have an effect only beside `measured`.
+  static constexpr const char* only_where = "region.measured = \"all\" or \"points\"";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(measured),
@@ -39,11 +41,12 @@ struct RegionOptions {
              "none, all of it, or the surroundings of region.measured_points.");
     v.option(HX_MEMBER(measured_points),
              "Points whose surroundings are measured. At least one where region.measured is "
-             "\"points\".");
+             "\"points\".",
+             {.only_where = only_where});
     v.option(HX_MEMBER(measured_radius_m), "How far the surroundings of a measured point reach.",
-             {.unit = kMillimetres, .bounds = {0.001, 0.2}});
+             {.unit = kMillimetres, .bounds = {0.001, 0.2}, .only_where = only_where});
     v.option(HX_MEMBER(blend_m), "Width of the transition from measured to simulated.",
-             {.unit = kMillimetres, .bounds = {0, 0.1}});
+             {.unit = kMillimetres, .bounds = {0, 0.1}, .only_where = only_where});
   }
 };
 
@@ -247,14 +250,16 @@ struct DriveOptions {
         "How the recorded points drive the face: the skin is carried to them, whatever the "
         "tissue; or muscles, the jaw and forces at the points are fitted to them "
         "(docs/muscles.md); or forces alone are. Forces are found once, in the scene's tissue, "
-        "and variants respond to the same forces. Where it is not given: \"displacement\" "
-        "where the scene or a variant sets a key of [support] (but jaw_points) or [region]; "
-        "else \"muscles\", unless the variants say otherwise. The run says which and why.");
+        "and variants respond to the same forces. Where it is not given, muscles drive, unless the "
+        "variants say otherwise. A scene or variant that sets region.measured or a stiffness of "
+        "[support] (in kPa/mm), which muscles do not use, is driven by displacement, with a "
+        "warning. The run says which and why.");
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone.",
              {.unit = kMillimetres, .bounds = {0, 0.03}});
-    v.option(HX_MEMBER(still_points), "Points of the skin that are fixed.");
+    v.option(HX_MEMBER(still_points),
+             "Landmarks of the skin that are fixed; none of them may be driven.");
     v.option(HX_MEMBER(gain), "Multiplies all displacements; 1 as recorded.",
              {.bounds = {0, 5}, .key = "motion.gain"});
   }

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <random>
 
 #include "hyperex/motion/stabilise.hpp"
 #include "unit/motion/motions.hpp"
@@ -52,6 +53,46 @@ TEST(StillPoints, PointsOfTheMouthAreLeftOut) {
   Motion motion = nodding();
   motion.names = {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "a", "b"};
   EXPECT_THAT(find_still_points(motion), IsEmpty());
+}
+
+std::vector<std::string> unsteady(const Motion& motion, const std::vector<std::string>& names) {
+  std::vector<std::string> out;
+  for (const UnsteadyPoint& point : unsteady_points(motion, names, 1.5e-3))
+    out.push_back(point.name);
+  return out;
+}
+
+const std::vector<std::string> kOfTheSkull = {"top", "left", "right", "nose"};
+
+TEST(UnsteadyPoints, AreThoseThatMoveAgainstTheOthers) {
+  EXPECT_THAT(unsteady(nodding(), kOfTheSkull), IsEmpty());
+  EXPECT_THAT(unsteady(nodding(1e-3), kOfTheSkull), IsEmpty()) << "skin over bone gives";
+  EXPECT_THAT(unsteady(nodding(), {"top", "smile", "left", "right"}), ElementsAre("smile"));
+  EXPECT_THAT(unsteady(nodding(), {"top", "nobody", "left"}), IsEmpty());
+  const auto moved = unsteady_points(nodding(5e-3), kOfTheSkull, 1.5e-3);
+  ASSERT_EQ(moved.size(), 1u);
+  EXPECT_EQ(moved[0].name, "nose");
+  EXPECT_NEAR(moved[0].change_m, 2.7e-3, 0.2e-3) << "of its distances from left and right";
+}
+
+TEST(UnsteadyPoints, AreAllWhereNoTwoAgree) {
+  const Motion motion = testing::sampled(21, 0.05, {"a", "b", "c"}, [](double t, int p, int axis) {
+    if (p == 1 && axis == 0) return 0.05 + 0.01 * t;
+    return p == 2 && axis == 1 ? 0.05 + 0.02 * t : 0.0;
+  });
+  EXPECT_THAT(unsteady(motion, {"a", "b", "c"}), ElementsAre("a", "b", "c"));
+}
+
+TEST(UnsteadyPoints, AreNotThoseThatAreReadBadly) {
+  Motion motion = nodding();
+  motion.positions[7](3, 0) += 0.02;
+  EXPECT_THAT(unsteady(motion, kOfTheSkull), IsEmpty()) << "one wild reading";
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_m(0, 0.4e-3);
+  motion = testing::sampled(200, 0.03, kOfTheSkull, [&](double, int p, int axis) {
+    return kPlace_m[p][axis] + noise_m(random);
+  });
+  EXPECT_THAT(unsteady(motion, kOfTheSkull), IsEmpty()) << "jitter";
 }
 
 TEST(StillPoints, AMissingPoseProposesThem) {

@@ -68,9 +68,20 @@ TEST(MuscleKeys, MusclesDriveASceneWithVariantsThatDoesNotSayWhatDrives) {
     EXPECT_EQ(scene_of(smallest + variant + key + "\n").drive.by, DriveBy::displacement) << key;
   EXPECT_EQ(scene_of(smallest + stiffer, {"support.field_kpa_per_mm=2"}).drive.by,
             DriveBy::displacement);
-  EXPECT_EQ(scene_of(smallest + stiffer, {"support.jaw_points=[\"Chin\"]"}).drive.by,
-            DriveBy::muscles)
-      << "muscles fit the jaw to all points";
+}
+
+TEST(MuscleKeys, KeysThatMusclesUseOrThatHaveNoEffectDecideNothing) {
+  const std::string stiffer = "[[variant]]\nname = \"v\"\ntissue = { young_kpa = 400 }\n";
+  for (const char* key :
+       {"support.border=free", "support.skull=held", "support.mandible=free",
+        "support.jaw_points=[\"Chin\"]", "region.measured=none", "region.blend_mm=100",
+        "region.measured_radius_mm=20", "region.measured_points=[\"ibug68_8\"]"})
+    EXPECT_EQ(scene_of(smallest + stiffer, {key}).drive.by, DriveBy::muscles) << key;
+  for (const char* key :
+       {"support.field_kpa_per_mm=2", "support.skull_across_kpa_per_mm=2",
+        "support.skull_along_kpa_per_mm=2", "support.mandible_across_kpa_per_mm=2",
+        "support.mandible_along_kpa_per_mm=2", "region.measured=all"})
+    EXPECT_EQ(scene_of(smallest + stiffer, {key}).drive.by, DriveBy::displacement) << key;
 }
 
 TEST(MuscleKeys, GainsAreATableOfNamesAndNumbers) {

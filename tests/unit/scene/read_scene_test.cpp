@@ -161,7 +161,8 @@ TEST(ReadScene, Lists) {
   EXPECT_THAT(only_problem(base, {"drive.points=some"}), HasSubstr("or \"all\""));
   EXPECT_THAT(only_problem(base, {"drive.points=[]"}), HasSubstr("one or more names, or \"all\""));
   EXPECT_THAT(only_problem(base, {"drive.points=[\"\"]"}), HasSubstr("a name in quotes"));
-  EXPECT_THAT(only_problem(base, {"motion.rigid_points=[\"a\", \"b\"]"}), HasSubstr("3 or more"));
+  EXPECT_THAT(only_problem(base, {"motion.rigid_points=[\"a\", \"b\"]"}),
+              HasSubstr("expected a list of 3 or more different names, or none"));
   EXPECT_THAT(only_problem(base, {"output.picture_times_s=[0, 2, 1]"}),
               HasSubstr("output.picture_times_s[2] = 1: expected a number above the one before"));
   EXPECT_THAT(only_problem(base, {"output.picture_times_s=[0, nan]"}), HasSubstr("[1] = nan"));

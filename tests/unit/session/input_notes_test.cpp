@@ -10,6 +10,7 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/note_matchers.hpp"
+#include "support/refusal.hpp"
 #include "unit/scene/scene_files.hpp"
 
 namespace hyperex::session {
@@ -100,6 +101,42 @@ TEST_F(InputNotes, JudgeByAnAverageFaceWhereLandmarksAreNotKnown) {
   open(40, 41, [](motion::Motion&) {});
   EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.starts_in_expression"),
                                             says("an average face"))));
+}
+
+TEST_F(InputNotes, WarnOfRigidPointsThatMove) {
+  open(0, 81, [](motion::Motion&) {});
+  const auto with = [&](const std::string& points) {
+    return notes({"motion.rigid_points=[" + points + "]"});
+  };
+  const std::vector<Note> of_mouth = with(R"("ibug68_48", "ibug68_57", "ibug68_54")");
+  EXPECT_THAT(of_mouth, Contains(AllOf(is_warning("head.pose_unknown"), says("other points"))));
+  EXPECT_THAT(of_mouth, Not(Contains(has_id("head.pose_uncertain"))));
+  EXPECT_THAT(of_mouth, Contains(AllOf(is_warning("head.points_not_rigid"), says("ibug68_57 ("))));
+  const std::vector<Note> mixed = with(R"("ibug68_27", "ibug68_36", "ibug68_45", "ibug68_57")");
+  EXPECT_THAT(mixed, Contains(AllOf(is_warning("head.points_not_rigid"), says("ibug68_57 ("),
+                                    Not(says("ibug68_36")))));
+  const std::vector<Note> sound = with(R"("ibug68_27", "ibug68_36", "ibug68_45", "ibug68_30")");
+  EXPECT_THAT(notes_of(sound, Severity::warning), IsEmpty());
+}
+
+TEST_F(InputNotes, ComeAfterNamesOfRigidPoints) {
+  open(0, 16, keep_mouth_and_headband);
+  const std::string said = test::refusal(
+      [&] { notes({R"(motion.rigid_points=["head_1", "head_2", "hed_3", "head_6"])"}); });
+  EXPECT_THAT(said, testing::StartsWith("--set: motion.rigid_points = [\"head_1\", "));
+  EXPECT_THAT(said, testing::HasSubstr("(hed_3 is none); did you mean head_3?"));
+  EXPECT_THAT(said, testing::HasSubstr("motion.csv"));
+}
+
+TEST_F(InputNotes, ComeAfterStillPointsThatAreDriven) {
+  const auto said = [&](const std::string& name) {
+    return test::refusal([&] { notes({"drive.still_points=[\"" + name + "\"]"}); });
+  };
+  EXPECT_EQ(said("ibug68_57"),
+            "--set: drive.still_points = [\"ibug68_57\"]: expected points that are not driven "
+            "(ibug68_57 is); drive.points chooses the driven ones");
+  EXPECT_THAT(said("cheilion_L"), testing::HasSubstr("(cheilion_L is, as ibug68_54)"));
+  EXPECT_EQ(said("ibug68_33"), "");
 }
 
 TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
