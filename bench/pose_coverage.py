@@ -60,7 +60,7 @@ def measured(hyperex, folder, rest, moved, noise_mm, random):
             right, left = int(pair[1]), int(pair[2])
             off_right = float(row["excursion_R_mm"]) - true[right]
             off_left = float(row["excursion_L_mm"]) - true[left]
-            floor = np.hypot(float(row["pose_floor_mm"]), float(row["jitter_floor_mm"]))
+            floor = np.hypot(float(row["pose_floor_mm"] or 0), float(row["jitter_floor_mm"] or 0))
             yield (right, left) == CORNERS, off_right, off_left, off_left - off_right, floor / 1.96
 
 

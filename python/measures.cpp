@@ -95,7 +95,15 @@ void bind_excursions(py::module_& m) {
       .def_property_readonly("difference_mm", &PairExcursion::difference_mm, "Left less right.")
       .def_readonly("undecided", &PairExcursion::undecided,
                     "The excursions differ by less than jitter, the mesh and the head's pose "
-                    "together explain.")
+                    "together explain, as far as these are known.")
+      .def_property_readonly(
+          "decided",
+          [](const PairExcursion& self) -> py::object {
+            const auto decided = self.decided(self.undecided);
+            return decided ? py::object(py::bool_(*decided)) : py::object(py::none());
+          },
+          "Whether the excursions differ by more than all noise explains; None if they differ by "
+          "more than what is known of it, but the jitter is not known.")
       .def("__repr__", [](const PairExcursion& pair) {
         return fmt::format("<hyperex.PairExcursion {}: left {:.2f} mm, right {:.2f} mm>", pair.name,
                            pair.left_side.excursion_mm, pair.right_side.excursion_mm);

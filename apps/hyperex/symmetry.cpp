@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -27,6 +28,7 @@
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -53,14 +55,23 @@ struct SymmetryOptions {
 };
 
 /// The jitter that the run itself used; nothing if its summary contains no such number.
-std::optional<double> jitter_of_run(const fs::path& folder) {
+std::optional<session::RecordedJitter> jitter_of_run(const fs::path& folder) {
   const fs::path file = folder / "summary.json";
   if (!fs::exists(file)) return std::nullopt;
   const auto summary = nlohmann::json::parse(read_file(file), nullptr, false);
   const auto at = nlohmann::json::json_pointer("/symmetry/jitter_mm");
   if (summary.is_discarded() || !summary.contains(at) || !summary[at].is_number())
     return std::nullopt;
-  return 1e-3 * summary[at].get<double>();
+  const double jitter_mm = summary[at].get<double>();
+  if (!(jitter_mm >= 0)) return std::nullopt;
+  const auto known = nlohmann::json::json_pointer("/symmetry/jitter_known");
+  if (summary.contains(known) && summary[known] == false)
+    return session::RecordedJitter{
+        0, false, "the run's summary.json says that the jitter of its recording is not known"};
+  return session::RecordedJitter{
+      1e-3 * jitter_mm, true,
+      fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
+                  jitter_mm)};
 }
 
 /// The number given by --jitter-mm; nothing for "auto".
@@ -78,11 +89,7 @@ session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::
                                   const fs::path& run) {
   const auto stated = stated_jitter_mm(options);
   if (!stated) {
-    const auto of_run = run.empty() ? std::nullopt : jitter_of_run(run);
-    if (of_run && *of_run >= 0)
-      return {*of_run, true,
-              fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
-                          1e3 * *of_run)};
+    if (const auto of_run = run.empty() ? std::nullopt : jitter_of_run(run)) return *of_run;
     if (!options.rig.empty()) return {0, true, "the points of a rig are exact"};
     return session::recorded_jitter(steady);
   }
@@ -93,15 +100,26 @@ session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::
                       : "points taken as exact, as --jitter-mm 0 states it"};
 }
 
-/// Warns if the jitter is unknown: then no figure can be classed as undecided.
+/// Warns if the jitter is unknown: then no figure above the floors is decided.
 void warn_of_unknown(const session::RecordedJitter& jitter) {
   if (!jitter.known)
     spdlog::warn(
-        "{}: the points are taken as exact, and noise may pass for asymmetry; --jitter-mm X "
-        "states it",
+        "{}: how much of a difference between the sides is noise is not known; --jitter-mm X "
+        "states the jitter, 0 for exact points",
         jitter.how);
 }
 
+/// Says which points hold the head's pose, as the user did not name them.
+void tell_still_points(const std::vector<std::string>& names) {
+  if (!names.empty())
+    std::cerr << fmt::format(
+        "head pose: taken out by {}, which keep their distances from each other, as points of the "
+        "skull do; --rigid-points names others, --keep-head keeps the head in\n",
+        fmt::join(names, ", "));
+}
+
+/// Without --rigid-points, the pose is that of the face's landmarks, or of the points that the
+/// recording itself shows to be still. Where there are neither, the head stays in.
 motion::StabilisedMotion without_head(const motion::Motion& motion,
                                       const SymmetryOptions& options) {
   const motion::StabilisedMotion kept{.motion = motion,
@@ -114,7 +132,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
   if (!options.rigid_points.empty())
     return motion::stabilise(motion, {.rigid_points = options.rigid_points});
   try {
-    return motion::stabilise(motion);
+    const std::vector<std::string> still = motion::proposed_rigid_points(motion);
+    motion::StabilisedMotion steady = motion::stabilise(motion, {.rigid_points = still});
+    tell_still_points(still);
+    return steady;
   } catch (const motion::OptionError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: "
               << error.sentence("--rigid-points") << '\n';
@@ -173,7 +194,7 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
   else if (all.curve.known())
     print_curve(all.curve);
   print_excursions(all.excursions);
-  print_head_uncertainty(steady);
+  print_head_uncertainty(steady, jitter);
   print_summary(all, jitter);
 }
 
@@ -190,6 +211,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   all.curve = metrics::symmetry_of(frames.tracks, options.output.symmetry_floor, jitter.jitter_m);
   all.excursions =
       metrics::excursions_of(frames.tracks, jitter.jitter_m, options.output.lowpass_hz);
+  metrics::set_known(all.excursions, {.jitter = jitter.known, .head = !options.keep_head});
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
@@ -276,6 +298,8 @@ void run(const SymmetryOptions& options) {
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
   all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.output.lowpass_hz);
+  metrics::set_known(all.excursions, {.jitter = jitter.known,
+                                      .head = !options.rig.empty() || !stabilised.poses.empty()});
   metrics::add_pose_floors(
       all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
   metrics::add_repetition_floor(all.excursions, 1e3 * options.output.repetition_m);
@@ -303,7 +327,8 @@ void add_noise_options(CLI::App& command, SymmetryOptions& options) {
       .add_option("--jitter-mm", options.jitter_mm,
                   "Jitter of the points (standard deviation per coordinate, mm), which sets the "
                   "noise floor. auto: for a run's folder the value in its summary.json, else "
-                  "estimated from the fourth differences of the points in time; 0: exact points")
+                  "estimated from the fourth differences of the points in time; 0: exact points. "
+                  "Where none shows it is unknown, and no difference above the floors is decided")
       ->capture_default_str();
   add_described(command, "--repetition-mm", options.output, &Output::repetition_m);
   add_described(command, "--lowpass-hz", options.output, &Output::lowpass_hz);
@@ -338,10 +363,12 @@ void add_symmetry(CLI::App& program) {
                    "For points: leave out the samples after this time (s)")
       ->check(CLI::PositiveNumber);
   command->add_flag("--keep-head", options->keep_head,
-                    "Do not remove the head pose before measuring excursions");
+                    "Do not remove the head pose before measuring excursions. No difference of "
+                    "excursions is decided then, as the head's motion may make it");
   command
       ->add_option("--rigid-points", options->rigid_points,
-                   "Points that carry the head's pose, with commas (default: all landmarks)")
+                   "Points that carry the head's pose, with commas (default: all landmarks; "
+                   "without those of the skull, points that keep their distances)")
       ->delimiter(',')
       ->excludes("--keep-head");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")

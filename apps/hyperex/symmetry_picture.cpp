@@ -58,7 +58,8 @@ void draw_bars(render::Canvas& canvas, double y, const std::vector<metrics::Pair
       canvas.text(x + width * mm / top + 6, bar_y + bar, fmt::format("{:.2f}", mm),
                   {.size_px = 10, .colour = render::palette::faint_ink});
     }
-    const std::string ratio = p.undecided ? "undecided"
+    const std::string ratio = p.undecided               ? "undecided"
+                              : !p.decided(p.undecided) ? "cannot tell"
                               : std::isfinite(p.excursion_ratio)
                                   ? fmt::format("{:.2f}", p.excursion_ratio)
                                   : "-";

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <iostream>
 #include <numbers>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,13 +23,36 @@ std::string cell(double value, int digits) {
                               : fmt::format("{:>10}", "-");
 }
 
-/// Names the figures of a pair that may be due to jitter alone.
-std::string undecided_note(const metrics::PairExcursion& p) {
-  std::vector<std::string> figures;
-  if (p.undecided) figures.push_back("excursion");
-  if (p.peak_speed_undecided) figures.push_back("speed");
-  if (p.speed_correlation_undecided) figures.push_back("correlation");
-  return figures.empty() ? "" : fmt::format("  undecided: {}", fmt::join(figures, ", "));
+/// Names the figures of a pair that may be due to noise alone, and those of which that is not
+/// known.
+std::string doubt_note(const metrics::PairExcursion& p) {
+  std::vector<std::string> undecided, unknown;
+  const auto judge = [&](const char* figure, bool below_floor) {
+    const std::optional<bool> decided = p.decided(below_floor);
+    if (!decided)
+      unknown.emplace_back(figure);
+    else if (!*decided)
+      undecided.emplace_back(figure);
+  };
+  judge("excursion", p.undecided);
+  judge("speed", p.peak_speed_undecided);
+  judge("correlation", p.speed_correlation_undecided);
+  std::string note;
+  if (!undecided.empty()) note = fmt::format("  undecided: {}", fmt::join(undecided, ", "));
+  if (unknown.size() == 3) return "  cannot tell";
+  if (!unknown.empty()) note += fmt::format("  cannot tell: {}", fmt::join(unknown, ", "));
+  return note;
+}
+
+/// Why figures above their floors are not decided.
+void print_unknown(const metrics::KnownNoise& known) {
+  if (known.all()) return;
+  const std::string jitter = "the jitter of the points is not known",
+                    head = "the head's motion is in the points";
+  std::cout << fmt::format("cannot tell: {} may make such a difference\n",
+                           known.head     ? jitter + " and"
+                           : known.jitter ? head + " and"
+                                          : head + ", " + jitter + ", and both");
 }
 
 /// What a clinician reads first: corners of the mouth, eyes, brows; last the outline of the jaw.
@@ -81,7 +105,7 @@ void print_excursions(const metrics::Excursions& excursions) {
                              cell(p.right_side.excursion_mm, 2), cell(p.left_side.excursion_mm, 2),
                              cell(p.excursion_ratio, 3), cell(p.right_side.peak_speed_mm_s, 1),
                              cell(p.left_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
-                             cell(p.speed_correlation, 3), undecided_note(p));
+                             cell(p.speed_correlation, 3), doubt_note(p));
   if (excursions.lowpass_hz > 0)
     std::cout << fmt::format(
         "excursions and speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter "
@@ -93,15 +117,27 @@ void print_excursions(const metrics::Excursions& excursions) {
         "repetition: differences of excursions below {:.1f} mm are undecided, as stated; all "
         "reasons together as the root of the sum of their squares\n",
         mm);
+  print_unknown(excursions.known);
 }
 
-void print_head_uncertainty(const motion::StabilisedMotion& steady) {
+void print_head_uncertainty(const motion::StabilisedMotion& steady,
+                            const session::RecordedJitter& jitter) {
   if (steady.shift_uncertainty_m.empty()) return;
-  std::cout << fmt::format(
-      "head's pose: uncertain by up to {:.1f} mm and {:.1f} degrees (95 %): differences of "
-      "excursions below what this makes are undecided\n",
-      1e3 * std::ranges::max(steady.shift_uncertainty_m),
-      std::ranges::max(steady.turn_uncertainty_rad) * 180 / std::numbers::pi);
+  const double shift_mm = 1e3 * std::ranges::max(steady.shift_uncertainty_m),
+               turn_deg = std::ranges::max(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
+  const auto prints_as_none = [&](double unit) {
+    return shift_mm < unit / 2 && turn_deg < unit / 2;
+  };
+  if (!prints_as_none(0.01))
+    std::cout << fmt::format(
+        "head's pose: uncertain by up to {0:.{2}f} mm and {1:.{2}f} degrees (95 %): differences of "
+        "excursions below what this makes are undecided\n",
+        shift_mm, turn_deg, prints_as_none(0.1) ? 2 : 1);
+  else if (jitter.known && jitter.jitter_m == 0)
+    std::cout << "head's pose: exact, as the points are\n";
+  else
+    std::cout << "head's pose: no noise is seen in the points that hold it, so that its "
+                 "uncertainty is not known\n";
 }
 
 void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {

@@ -124,6 +124,29 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   EXPECT_THAT(call(quiet).err, AllOf(HasSubstr("warning: "), HasSubstr("jitter")));
 }
 
+TEST_F(Plausible, SymmetryDecidesNothingWhereNoiseIsNotKnown) {
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (const char* name : {"cheilion_L", "ibug68_54"})
+      for (std::size_t k = 0; k < m.positions.size(); ++k)
+        m.positions[k](m.index_of(name), 0) += 10e-3 * double(k) / 15;
+  });
+  const auto decided = [&](const std::string& options) {
+    const Outcome found = call("symmetry motion.csv --excursions e.csv" + options);
+    EXPECT_EQ(found.status, 0) << found.err;
+    const std::string text = read_file(in("e.csv")), row = text.substr(text.find("\ncheilion,"));
+    return row.substr(1, row.find('\n', 1) - 1) + " " + found.out;
+  };
+  EXPECT_THAT(decided(""), AllOf(HasSubstr(",,,,, "), HasSubstr("  cannot tell\n"),
+                                 HasSubstr("cannot tell: the jitter of the points is not known "
+                                           "and may make such a difference\n")));
+  EXPECT_THAT(decided(" --jitter-mm 0"),
+              AllOf(HasSubstr(",1,0,0,1,1,1 "), Not(HasSubstr("cannot tell"))));
+  EXPECT_THAT(decided(" --jitter-mm 0 --keep-head"),
+              AllOf(HasSubstr(",,0,0,,, "), HasSubstr("cannot tell: the head's motion is in the "
+                                                      "points and may make such a difference\n")));
+  EXPECT_THAT(decided(" --keep-head"), HasSubstr("is not known, and both may make such"));
+}
+
 TEST_F(Plausible, SymmetryWarnsOfMillisecondsAndOfAPairExchanged) {
   const std::string symmetry = "symmetry motion.csv --keep-head --out s.csv";
   write_motion(0, 16, [](motion::Motion& m) {
@@ -195,7 +218,12 @@ TEST_F(Plausible, TheDifferenceOfTheCornersIsJudgedAloud) {
       for (std::size_t k = 0; k < m.positions.size(); ++k)
         m.positions[k](m.index_of(name), 0) += 4e-3 * double(k) / 15;
   });
+  // A short recording, whose jitter is not known.
+  const std::string unknown = ", but cannot tell, as the recording's jitter is not known\n";
+  EXPECT_THAT(call("run scene.toml --out unknown").out, HasSubstr(unknown));
+  EXPECT_THAT(call("symmetry unknown").err, HasSubstr("summary.json says that the jitter"));
   const Outcome apart = call("run scene.toml --out apart --set output.jitter_mm=0");
+  EXPECT_THAT(apart.out, Not(HasSubstr(unknown)));
   EXPECT_THAT(
       apart.out,
       ContainsRegex("mm apart: more than the floor of [0-9.]+ mm \\((mesh|jitter|head pose)\\)"));

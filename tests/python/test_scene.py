@@ -149,6 +149,8 @@ class Measures(unittest.TestCase):
         alone = hyperex.excursions_of(simulator.run().landmarks)["cheek"]
         self.assertTrue(np.isnan(hyperex.change_of(alone, alone, "L").band_mm))
         self.assertIsNone(hyperex.change_of(alone, alone, "L").decided)
+        self.assertIs(alone.decided, True)
+        self.assertEqual(soft["cheek"].decided, not soft["cheek"].undecided)
         with self.assertRaisesRegex(hyperex.InputError, "side"):
             hyperex.change_of(alone, alone, "left")
         with self.assertRaisesRegex(hyperex.InputError, "twin"):

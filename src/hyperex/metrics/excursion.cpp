@@ -256,4 +256,9 @@ Excursions excursions_of(const motion::Motion& motion, double jitter_m, double l
   return all;
 }
 
+void set_known(Excursions& excursions, const KnownNoise& known) {
+  excursions.known = known;
+  for (PairExcursion& pair : excursions.pairs) pair.known = known;
+}
+
 }  // namespace hyperex::metrics

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,13 @@ struct SideExcursion {
   double pose_floor_mm = 0;
 };
 
+/// What is known of the noise in a motion's points.
+struct KnownNoise {
+  bool jitter = true;  ///< false: none shows and none is stated; the points may be smoothed
+  bool head = true;    ///< false: the head's motion is in the points
+  bool all() const { return jitter && head; }
+};
+
 /// A point and its counterpart on the other side. Ratios are right over left, as the affected side
 /// is not known. A ratio is NaN if the left value is below 1 um or 1 um/s, or below its floor.
 struct PairExcursion {
@@ -40,7 +48,7 @@ struct PairExcursion {
   double speed_correlation = 0;
   /// The values that jitter alone produces for a point at rest (speed_floor.hpp). If the quieter
   /// side moves faster than this jitter even in its quietest half second, they are increased in
-  /// proportion, because the jitter of trackers is not white. 0: unknown.
+  /// proportion, because the jitter of trackers is not white. 0: none, or not known.
   double peak_speed_floor_mm_s = 0, path_floor_mm = 0;
   /// The difference between the sides is below the floor.
   bool peak_speed_undecided = false, path_undecided = false;
@@ -68,6 +76,7 @@ struct PairExcursion {
   /// would equal the excursion of this side. NaN without a twin.
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
+  KnownNoise known;  ///< of what is not known, no floor contains anything
 
   double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
   /// All floors together, as independent errors: the root of the sum of their squares.
@@ -75,8 +84,14 @@ struct PairExcursion {
     const double mesh_mm = std::isnan(mesh_floor_mm) ? 0 : mesh_floor_mm;
     return std::hypot(std::hypot(jitter_floor_mm, mesh_mm), pose_floor_mm, repetition_floor_mm);
   }
-  /// Sets `undecided` by the floors. Without any floor every difference is decided.
+  /// Sets `undecided` by the floors that are known; without any it is false.
   void judge() { undecided = floor_mm() > 0 && !(std::abs(difference_mm()) >= floor_mm()); }
+  /// Whether a figure is decided. `below_floor`: `undecided`, `path_undecided` and so on. A figure
+  /// above its floors is not told from noise that is not known: then nothing.
+  std::optional<bool> decided(bool below_floor) const {
+    if (below_floor) return false;
+    return known.all() ? std::optional<bool>(true) : std::nullopt;
+  }
 };
 
 /// The clinical measure of a smile: the excursion of the corners of the mouth.
@@ -96,6 +111,7 @@ struct Excursions {
   Commissure commissure;
   double jitter_m = 0;
   double lowpass_hz = 0;  ///< cut-off used to smooth all positions; 0: not smoothed
+  KnownNoise known;       ///< that of all pairs
 };
 
 /// The excursions of all pairs of points of a motion without head pose: NAME_L and NAME_R, and
@@ -105,5 +121,9 @@ struct Excursions {
 /// motion is never smoothed.
 Excursions excursions_of(const motion::Motion& motion, double jitter_m = 0,
                          double lowpass_hz = kUsualLowpass_hz);
+
+/// States what is known of the noise. excursions_of() takes all as known: the points are exact
+/// where it is given no jitter.
+void set_known(Excursions& excursions, const KnownNoise& known);
 
 }  // namespace hyperex::metrics

@@ -5,6 +5,7 @@
 
 #include "hyperex/metrics/excursion_budget.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
+#include "hyperex/metrics/nan.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -18,6 +19,14 @@ Json both(double left, double right) {
   return {{"R", number(right)}, {"L", number(left)}};
 }
 
+Json undecided_json(const std::optional<bool>& decided) {
+  return decided ? Json(!*decided) : Json(nullptr);
+}
+
+Json floor_json(bool known, double floor) {
+  return number(known ? floor : kNan);
+}
+
 Json pair_json(const PairExcursion& p) {
   Json json;
   json["point"] = p.name;
@@ -28,19 +37,19 @@ Json pair_json(const PairExcursion& p) {
   json["peak_speed_mm_s"] = both(p.left_side.peak_speed_mm_s, p.right_side.peak_speed_mm_s);
   json["peak_speed_ratio_R_L"] = number(p.speed_ratio);
   json["speed_correlation"] = number(p.speed_correlation);
-  json["path_floor_mm"] = p.path_floor_mm;
-  json["path_undecided"] = p.path_undecided;
-  json["peak_speed_floor_mm_s"] = p.peak_speed_floor_mm_s;
-  json["peak_speed_undecided"] = p.peak_speed_undecided;
-  json["speed_correlation_undecided"] = p.speed_correlation_undecided;
+  json["path_floor_mm"] = floor_json(p.known.jitter, p.path_floor_mm);
+  json["path_undecided"] = undecided_json(p.decided(p.path_undecided));
+  json["peak_speed_floor_mm_s"] = floor_json(p.known.jitter, p.peak_speed_floor_mm_s);
+  json["peak_speed_undecided"] = undecided_json(p.decided(p.peak_speed_undecided));
+  json["speed_correlation_undecided"] = undecided_json(p.decided(p.speed_correlation_undecided));
   json["difference_mm"] = number(p.difference_mm());
-  json["jitter_floor_mm"] = p.jitter_floor_mm;
+  json["jitter_floor_mm"] = floor_json(p.known.jitter, p.jitter_floor_mm);
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
-  json["pose_floor_mm"] = p.pose_floor_mm;
+  json["pose_floor_mm"] = floor_json(p.known.head, p.pose_floor_mm);
   json["repetition_floor_mm"] = p.repetition_floor_mm;
-  json["floor_mm"] = number(p.floor_mm());
+  json["floor_mm"] = floor_json(p.known.all() || p.floor_mm() > 0, p.floor_mm());
   json["largest_part"] = largest_part_of(p);
-  json["undecided"] = p.undecided;
+  json["undecided"] = undecided_json(p.decided(p.undecided));
   return json;
 }
 
@@ -85,6 +94,7 @@ Json map_json(const Asymmetry& map) {
 
 Json summary_of(const SymmetryMeasures& measures) {
   Json json = curve_json(measures.curve);
+  json["jitter_known"] = measures.excursions.known.jitter;
   json["lowpass_hz"] = measures.excursions.lowpass_hz;
   const Commissure& mouth = measures.excursions.commissure;
   json["commissure_from_midlip_mm"] = both(mouth.left_from_midlip_mm, mouth.right_from_midlip_mm);

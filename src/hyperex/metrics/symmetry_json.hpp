@@ -8,7 +8,8 @@
 namespace hyperex::metrics {
 
 /// The entry for summary.json: jitter, mesh floor, the undecided share of S(t), commissure,
-/// excursions, map. Undefined numbers are null.
+/// excursions, map. Undefined numbers are null, and so is "undecided" (and "path_undecided" and so
+/// on) where a figure is above its floors but not all noise is known (PairExcursion::decided).
 nlohmann::ordered_json summary_of(const SymmetryMeasures& measures);
 
 }  // namespace hyperex::metrics

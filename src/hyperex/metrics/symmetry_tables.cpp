@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/metrics/nan.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -17,6 +18,14 @@ std::string field(double value) {
 /// The value as a field, or an empty field.
 std::string at(const std::vector<double>& values, size_t i) {
   return i < values.size() ? field(values[i]) : std::string();
+}
+
+const char* decided_field(const std::optional<bool>& decided) {
+  return !decided ? "" : *decided ? "1" : "0";
+}
+
+std::string floor_field(bool known, double floor) {
+  return field(known ? floor : kNan);
 }
 
 std::string log_at(const std::vector<double>& values, size_t i) {
@@ -92,11 +101,16 @@ void write_excursions_csv(const std::filesystem::path& file, const Excursions& e
                  field(p.excursion_ratio), field(p.right_side.path_mm), field(p.left_side.path_mm),
                  field(p.path_ratio), field(p.right_side.peak_speed_mm_s),
                  field(p.left_side.peak_speed_mm_s), field(p.speed_ratio),
-                 field(p.speed_correlation), field(p.difference_mm()), field(p.jitter_floor_mm),
-                 field(p.mesh_floor_mm), field(p.pose_floor_mm), field(p.repetition_floor_mm),
-                 field(p.floor_mm()), p.undecided ? 0 : 1, field(p.path_floor_mm),
-                 field(p.peak_speed_floor_mm_s), p.path_undecided ? 0 : 1,
-                 p.peak_speed_undecided ? 0 : 1, p.speed_correlation_undecided ? 0 : 1);
+                 field(p.speed_correlation), field(p.difference_mm()),
+                 floor_field(p.known.jitter, p.jitter_floor_mm), field(p.mesh_floor_mm),
+                 floor_field(p.known.head, p.pose_floor_mm), field(p.repetition_floor_mm),
+                 floor_field(p.known.all() || p.floor_mm() > 0, p.floor_mm()),
+                 decided_field(p.decided(p.undecided)),
+                 floor_field(p.known.jitter, p.path_floor_mm),
+                 floor_field(p.known.jitter, p.peak_speed_floor_mm_s),
+                 decided_field(p.decided(p.path_undecided)),
+                 decided_field(p.decided(p.peak_speed_undecided)),
+                 decided_field(p.decided(p.speed_correlation_undecided)));
   });
 }
 

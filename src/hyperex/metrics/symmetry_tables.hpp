@@ -28,8 +28,10 @@ void write_symmetry_csv(const std::filesystem::path& file, const SymmetryMeasure
 
 /// Writes a CSV with one row per pair of points: point; for L, R and as ratio_R_L: excursion_mm,
 /// path_mm, peak_speed_mm_s; speed_correlation; difference_mm (L - R of the excursions),
-/// jitter_floor_mm, mesh_floor_mm (empty if unknown), decided (1 or 0); path_floor_mm,
-/// peak_speed_floor_mm_s, path_decided, peak_speed_decided, speed_correlation_decided.
+/// jitter_floor_mm, mesh_floor_mm, pose_floor_mm, repetition_floor_mm, floor_mm (of all that are
+/// known), decided; path_floor_mm, peak_speed_floor_mm_s, path_decided, peak_speed_decided,
+/// speed_correlation_decided. A floor that is not known is empty. decided: 1; 0: below the floor;
+/// empty: above it, but not all noise is known (PairExcursion::decided).
 void write_excursions_csv(const std::filesystem::path& file, const Excursions& excursions);
 
 /// A sentence: when the two sides differ most and by how much, that they do not differ, or that

@@ -22,13 +22,15 @@ double rounded_mm(double mm) {
 /// Whether the corners' difference counts, and what most of the floor comes from.
 std::string floor_clause(const Json& corners, double apart_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
-  if (floor_mm <= 0) return "";
-  return fmt::format(": {} the floor of {} mm ({})",
-                     corners.value("undecided", false) ? "undecided, below" : "more than",
-                     floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1
-                         ? fmt::format("{:.2f}", floor_mm)
-                         : fmt::format("{:.1f}", floor_mm),
-                     corners.value("largest_part", "mesh"));
+  const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
+  const std::string cannot_tell = "cannot tell, as the recording's jitter is not known";
+  if (floor_mm <= 0) return unknown ? ": " + cannot_tell : "";
+  return fmt::format(
+      ": {} the floor of {} mm ({}){}",
+      !unknown && corners.value("undecided", false) ? "undecided, below" : "more than",
+      floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1 ? fmt::format("{:.2f}", floor_mm)
+                                                              : fmt::format("{:.1f}", floor_mm),
+      corners.value("largest_part", "mesh"), unknown ? ", but " + cannot_tell : "");
 }
 
 /// A corner of the mouth in base and in a variant; what is not known is not a number.

@@ -27,6 +27,8 @@ struct Inputs {
   /// What errors of the head's pose make, by the recording's pairs of points, without motion.gain.
   std::map<std::string, metrics::PairPoseVariance> pose_variance;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known
+  /// False if the recorded points show no jitter and none is stated: they may be smoothed.
+  bool jitter_known = true;
   /// Length of the recording in the run, from time.start_s on; 0: unknown. In a quick reading of a
   /// camera's recording, it is computed from the number of frames.
   double lasts_s = 0;

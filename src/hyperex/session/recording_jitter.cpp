@@ -8,6 +8,7 @@
 
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/motion/jitter.hpp"
+#include "hyperex/session/read_recording.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -67,12 +68,18 @@ void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motio
   RecordedJitter found = recorded_jitter(m);
   if (found.too_short && tracked) found = jitter_of_short(m);
   in.jitter_m = found.jitter_m;
-  in.notes.push_back(
-      in.jitter_m > 0
-          ? make_note("recording.jitter", found.how + " (output.jitter_mm sets another)")
-          : make_note("recording.no_jitter",
-                      found.how + "; figures of symmetry are judged by the mesh alone "
-                                  "(output.jitter_mm sets a jitter)"));
+  in.jitter_known = found.known || of_weights(scene);
+  if (in.jitter_m > 0)
+    in.notes.push_back(
+        make_note("recording.jitter", found.how + " (output.jitter_mm sets another)"));
+  else
+    in.notes.push_back(make_note(
+        "recording.no_jitter",
+        found.how + (in.jitter_known
+                         ? "; the points of a face model are taken as exact (output.jitter_mm sets "
+                           "a jitter)"
+                         : "; how much of a difference between the sides is noise is not known "
+                           "(output.jitter_mm states the jitter, 0 for exact points)")));
 }
 
 }  // namespace hyperex::session

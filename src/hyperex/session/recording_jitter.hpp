@@ -20,9 +20,11 @@ struct RecordedJitter {
 /// samples. `m`: without head pose, with recorded times and lengths.
 RecordedJitter recorded_jitter(const motion::Motion& m);
 
-/// Sets Inputs::jitter_m, with a note on its source: output.jitter_mm of the scene, else
-/// recorded_jitter(). For a camera's recording that is read in full and too short for that, it is
-/// the jitter in the quietest half second (metrics::jitter_at_rest).
+/// Sets Inputs::jitter_m and jitter_known, with a note on their source: output.jitter_mm of the
+/// scene, else recorded_jitter(). For a camera's recording that is read in full and too short for
+/// that, it is the jitter in the quietest half second (metrics::jitter_at_rest). Points that the
+/// program itself moves, the embedded motion or a face model by weights, are exact where none
+/// shows.
 void settle_jitter(const scene::Scene& scene, Extent extent, const motion::Motion& m, Inputs& in);
 
 }  // namespace hyperex::session

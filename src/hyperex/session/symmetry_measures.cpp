@@ -37,6 +37,7 @@ metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inp
          all.curve = metrics::symmetry_of(p.landmarks, scene.output.symmetry_floor, jitter_m);
          all.excursions = metrics::excursions_of(p.landmarks, jitter_m, scene.output.lowpass_hz);
        }});
+  metrics::set_known(all.excursions, {.jitter = inputs.jitter_known});
   all.no_mesh_floor = twin.why_not;
   metrics::add_pose_floors(all.excursions, inputs.pose_variance, scene.drive.gain);
   metrics::add_repetition_floor(all.excursions, 1e3 * scene.output.repetition_m);

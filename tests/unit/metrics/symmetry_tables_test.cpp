@@ -9,6 +9,7 @@
 #include <limits>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/metrics/repetition_floor.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 
 namespace hyperex::metrics {
@@ -104,6 +105,30 @@ TEST_F(SymmetryTables, ExcursionsAreARowAPair) {
             "path_floor_mm,peak_speed_floor_mm_s,path_decided,peak_speed_decided,"
             "speed_correlation_decided\n"
             "cheilion,2,4,0.5,4,8,0.5,5,20,0.25,,2,0,,0,0,0,1,0,0,1,1,1\n");
+}
+
+TEST_F(SymmetryTables, NothingAboveTheFloorsIsDecidedWhereNoiseIsNotKnown) {
+  SymmetryMeasures all = some();
+  set_known(all.excursions, {.jitter = false, .head = false});
+  write_excursions_csv(file_, all.excursions);
+  EXPECT_THAT(read_file(file_), HasSubstr(",0.25,,2,,,,0,,,,,,,\n"));
+  auto json = summary_of(all);
+  EXPECT_EQ(json["jitter_known"], false);
+  for (const char* key :
+       {"undecided", "path_undecided", "peak_speed_undecided", "speed_correlation_undecided",
+        "jitter_floor_mm", "pose_floor_mm", "path_floor_mm", "peak_speed_floor_mm_s", "floor_mm"})
+    EXPECT_TRUE(json["commissure"].at(key).is_null()) << key;
+  // More noise cannot decide what a known floor leaves undecided.
+  add_repetition_floor(all.excursions, 3);
+  write_excursions_csv(file_, all.excursions);
+  EXPECT_THAT(read_file(file_), HasSubstr(",2,,,,3,3,0,,,,,\n"));
+  EXPECT_EQ(summary_of(all)["commissure"]["undecided"], true);
+  // The head's motion alone.
+  set_known(all.excursions, {.head = false});
+  add_repetition_floor(all.excursions, 0);
+  write_excursions_csv(file_, all.excursions);
+  EXPECT_THAT(read_file(file_), HasSubstr(",2,0,,,0,,,0,0,,,\n"));
+  EXPECT_EQ(summary_of(all)["jitter_known"], true);
 }
 
 TEST_F(SymmetryTables, SummaryCallsUndecidedWhatNoiseMayMake) {

@@ -77,6 +77,18 @@ TEST(CornerWords, NamesTheLargestPartOfTheFloor) {
   EXPECT_THAT(corners_line(summary), HasSubstr("undecided, below the floor of 1.3 mm (head pose)"));
 }
 
+TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["undecided"] = nullptr;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("1.0 mm apart: more than the floor of 0.1 mm (mesh), but cannot tell, as "
+                        "the recording's jitter is not known\n"));
+  corners["floor_mm"] = nullptr;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("1.0 mm apart: cannot tell, as the recording's jitter is not known\n"));
+}
+
 TEST(CornerWords, AChangeWithinItsBandIsUndecided) {
   EXPECT_THAT(variant_lines(summary_of({6.7, 7.0, 7.0, 0.5}, same, {"R"})),
               HasSubstr("right 6.7 to 7.0 mm, undecided (+- 0.5)"));

@@ -206,14 +206,20 @@ TEST_F(InputNotes, NameMisspeltAndOwnLandmarks) {
 
 TEST_F(InputNotes, SayWhereTheJitterIsFrom) {
   open(0, 81, [](motion::Motion&) {});
+  const auto inputs = [&](const std::vector<std::string>& set) {
+    return read_inputs(scene::read_scene(folder_ / "scene.toml", set), Extent::quick);
+  };
   EXPECT_THAT(notes(), Contains(is_note("recording.no_jitter")));
+  EXPECT_FALSE(inputs({}).jitter_known) << "the points may be smoothed";
+  EXPECT_TRUE(inputs({"output.jitter_mm=0"}).jitter_known);
   open(0, 81, [](motion::Motion& m) {
     std::mt19937 generator(1);
     std::normal_distribution<double> noise(0, 0.2e-3);
     for (auto& sample : m.positions)
       for (double& x : sample.reshaped()) x += noise(generator);
   });
-  const Inputs noisy = read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick);
+  const Inputs noisy = inputs({});
+  EXPECT_TRUE(noisy.jitter_known);
   EXPECT_THAT(noisy.notes, Contains(is_note("recording.jitter")));
   EXPECT_NEAR(1e3 * noisy.jitter_m, 0.2, 0.03);
   EXPECT_THAT(notes({"output.jitter_mm=0.1"}),

@@ -19,6 +19,8 @@ export interface Corners {
   /** Differences of the sides below this are undecided, mm; 0: no floor is known. */
   floorMm: number;
   undecided: boolean;
+  /** The sides differ by more than the floor, but the recording's jitter is not known and may make that. */
+  cannotTell: boolean;
   /** Both are driven points: they follow the recording in any tissue. */
   driven: boolean;
 }
@@ -47,6 +49,7 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
     return {
       timeS: landmarks.timeS, left, right, leftMm, rightMm, floorMm,
       undecided: pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
+      cannotTell: pair?.undecided === null,
       // The corner has either name.
       driven: names.some(([a, b]) => driven.names.includes(a) && driven.names.includes(b)),
     };
@@ -170,7 +173,7 @@ function changeFigures(change: CornerChange): string {
 function sidesFigures(corners: Corners): string {
   const { own, limit } = apartAgainstFloor(corners);
   const band = corners.floorMm > 0 ? ` ± ${limit.replace(' mm', '')}` : '';
-  return `sides differ by ${own.replace(' mm', '')}${band} mm${corners.undecided ? ', undecided' : ''}`;
+  return `sides differ by ${own.replace(' mm', '')}${band} mm${corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : ''}`;
 }
 
 /** How far the corners of the mouth are from rest at the time shown, and at most in the whole motion, with what is
@@ -200,7 +203,8 @@ export const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(rounde
 export function differenceWords(corners: Corners): string {
   const { own, limit } = apartAgainstFloor(corners);
   if (corners.undecided) return `${own} apart: undecided (below ${limit})`;
-  return apartMm(corners) < sameMm ? 'no difference' : `${own} apart`;
+  if (apartMm(corners) < sameMm) return 'no difference';
+  return corners.cannotTell ? `${own} apart: cannot tell (jitter not known)` : `${own} apart`;
 }
 
 /** How far the sides are apart, and the floor of that, so that the two do not print alike. */

@@ -71,6 +71,7 @@ const en = {
   sidesApart: 'Sides',
   apartNone: 'no difference',
   apartDecided: (limit: string) => `apart: decided, above ${limit}`,
+  apartCannotTell: 'apart: cannot tell, jitter not known',
   apartUndecided: (limit: string) => `apart: undecided, below ${limit}`,
   certaintyAsk: 'How certain is this?',
   certaintyHint: 'Runs the face some twelve times more, each time with one thing wrong by as much as it may be: mesh, landmarks, muscles, stiffness, law. Takes about half a minute; any change of the face ends it.',

@@ -17,12 +17,13 @@ import { changesOf, variantsOf, type VariantRow } from '../variants';
 
 /** Where the floor comes from, in words. */
 function floorWords(replay: Replay, corners: Corners): string {
-  const { floorMm, undecided } = corners;
+  const { floorMm, undecided, cannotTell } = corners;
   const jitter = replay.symmetry?.jitter_mm ?? 0;
-  if (!(floorMm > 0)) return meshFloorWhy(replay) || 'No floor is known: the recording is exact.';
+  const noJitter = 'The jitter of the recording is not known: none is stated, and none shows. It may make a difference of the sides.';
+  if (!(floorMm > 0)) return [meshFloorWhy(replay), cannotTell ? noJitter : ''].filter(Boolean).join(' ') || 'No floor is known: the recording is exact.';
   const { limit } = apartAgainstFloor(corners);
   const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
-  const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : 'No jitter of the recording was weighed: none is stated, and none shows.';
+  const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : cannotTell ? noJitter : 'No jitter of the recording was weighed: none is stated, and none shows.';
   const verdict = undecided ? `Undecided: a difference of the sides below ${limit} cannot be told from ${made}.`
     : `The sides differ by more than ${made}, ${limit}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
   return [verdict, why, filterWords(replay)].filter(Boolean).join(' ');
@@ -95,7 +96,7 @@ function headlines(replay: Replay, face: number, corners: Corners): HTMLElement[
   line.id = 'headline';
   const [right, left] = sides.map((side) => sideWords(side, farthestMm(corners, side)));
   line.append(right, ', ', left);
-  const apart: Verdict = { text: differenceWords(corners), undecided: corners.undecided };
+  const apart: Verdict = { text: differenceWords(corners), undecided: corners.undecided || corners.cannotTell };
   const change = changeVerdict(replay, face);
   if (!change) {
     line.append(': ', strong(apart));

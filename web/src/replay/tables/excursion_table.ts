@@ -19,7 +19,8 @@ export interface Excursion {
   path_mm: Sides;
   peak_speed_mm_s: Sides;
   speed_correlation: number | null;
-  undecided: boolean;
+  /** Null: the sides differ by more than the floor, but the recording's jitter is not known and may make that. */
+  undecided: boolean | null;
   /** What |L - R| of the excursions must exceed to stand out from jitter and mesh. */
   floor_mm?: number | null;
   [ratio: string]: unknown;
@@ -41,6 +42,11 @@ const correlation: Column = {
 const undecided = {
   head: 'Undecided',
   says: 'the sides differ by less than jitter, the mesh and the head’s pose together make of a symmetric motion.',
+};
+
+const cannotTell = {
+  head: 'Cannot tell',
+  says: 'the sides differ by more than what is known of the noise, but the recording shows no jitter and none is stated: it may be exact or smoothed.',
 };
 
 const unitKey = { excursion: 'excursion_mm', path: 'path_mm', peak_speed: 'peak_speed_mm_s' } as const;
@@ -93,14 +99,15 @@ function balance({ L, R }: Sides): HTMLElement {
 
 const floorKey = { excursion: 'floor_mm', path: 'path_floor_mm', peak_speed: 'peak_speed_floor_mm_s' } as const;
 const floorOf = (pair: Excursion, key: keyof typeof floorKey): number => Number(pair[floorKey[key]] ?? NaN);
-const isUndecided = (pair: Excursion, key: keyof typeof floorKey): boolean =>
-  key === 'excursion' ? pair.undecided : pair[`${key}_undecided`] === true;
 
-/** In grey, with the word and the floor instead of a figure that would be read as a finding. */
-function undecidedCell(cell: HTMLTableCellElement, floor: number, unit: string): HTMLTableCellElement {
+/** Where it is not decided in grey, with the word and the floor instead of a figure that would be read as a finding.
+ *  `verdict`: true, undecided; null, cannot tell. */
+function judgedCell(cell: HTMLTableCellElement, verdict: unknown, floor: number, unit: string): HTMLTableCellElement {
+  if (verdict !== true && verdict !== null) return cell;
   const known = Number.isFinite(floor) && floor > 0;
-  const words = element('span', known ? `undecided (below ${floor.toFixed(1)} ${unit})` : 'undecided', 'undecided');
-  words.title = `${cell.textContent}: ${undecided.says}`;
+  const text = verdict === null ? 'cannot tell' : known ? `undecided (below ${floor.toFixed(1)} ${unit})` : 'undecided';
+  const words = element('span', text, 'undecided');
+  words.title = `${cell.textContent}: ${(verdict === null ? cannotTell : undecided).says}`;
   cell.replaceChildren(words);
   return cell;
 }
@@ -115,10 +122,10 @@ function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
     const sides = pair[unitKey[key]];
     row.append(figureCell(sides.R, column), figureCell(sides.L, column));
     const over = figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 });
-    row.append(isUndecided(pair, key) ? undecidedCell(over, floorOf(pair, key), unit) : over);
+    row.append(judgedCell(over, pair[key === 'excursion' ? 'undecided' : `${key}_undecided`], floorOf(pair, key), unit));
   }
   const together = figureCell(pair.speed_correlation, correlation);
-  row.append(pair.speed_correlation_undecided === true ? undecidedCell(together, NaN, '') : together);
+  row.append(judgedCell(together, pair.speed_correlation_undecided, NaN, ''));
 }
 
 const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
@@ -130,7 +137,7 @@ const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
       const over = pair[`${key}_ratio_R_L`];
       return [pair[unitKey[key]].R, pair[unitKey[key]].L, isNumber(over) ? over : null];
     }),
-    pair.speed_correlation, pair.undecided ? 'yes' : 'no',
+    pair.speed_correlation, pair.undecided === null ? 'cannot tell' : pair.undecided ? 'yes' : 'no',
   ]),
 ];
 
@@ -180,8 +187,8 @@ export function excursionTable(replay: Replay, shown: Shown, undoing: Undoing): 
   ], table, () => csvRows(pairs));
   card.classList.add('excursions');
   card.querySelector('.scroller')!.before(whose);
-  const anyUndecided = replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => Object.entries(pair)
-    .some(([key, value]) => key.endsWith('undecided') && value === true)));
-  folding.append(fold, leftOut, columnNotes([...groups, ratio, correlation, ...(anyUndecided ? [undecided] : [])]));
+  const any = (verdict: true | null) => replay.faces.some((_, i) => excursionsOf(replay, i).some((pair) => Object.entries(pair)
+    .some(([key, value]) => key.endsWith('undecided') && value === verdict)));
+  folding.append(fold, leftOut, columnNotes([...groups, ratio, correlation, ...(any(true) ? [undecided] : []), ...(any(null) ? [cannotTell] : [])]));
   return card;
 }
