@@ -97,6 +97,18 @@ void check_unaligned(const scene::Scene& scene,
   note_missing_support(scene, in);
 }
 
+/// Points of a camera's recording or of a face model are no points that a user could correct.
+void note_misfit(const scene::Scene& scene, const motion::Motion& steady, Inputs& in) {
+  const bool of_a_model = of_weights(scene) || !scene.motion.candide.empty();
+  Misfit fit{in.motion.rms_mm, in.motion.scan_from_motion.scale, in.motion.common.size()};
+  if (!of_a_model && scene.motion.recording.empty()) {
+    const MisplacedPoints misplaced = misplaced_points(steady, in.landmarks);
+    add(in.notes, misplaced_warning(misplaced));
+    if (!misplaced.points.empty()) fit = misplaced.others;
+  }
+  add(in.notes, misfit_warning(fit, steady.unit_note, of_a_model));
+}
+
 void align_recording(const scene::Scene& scene, const io::Landmarks& given,
                      const motion::Motion& steady, Inputs& in) {
   const FaceAtRest at_rest{in.landmarks, "the scan"};
@@ -112,8 +124,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   if (!scene.scan.landmarks.empty() || !scene.given.landmarks.empty())
     append(in.notes, anatomy::landmark_doubts(given, in.scan.mesh));
   add(in.notes, idle_law_warning(scene));
-  const scene::MotionOptions& recorded = scene.motion;
-  add(in.notes, misfit_warning(in.motion, of_weights(scene) || !recorded.candide.empty()));
+  note_misfit(scene, steady, in);
   add(in.notes, start_warning(steady, at_rest, of_weights(scene)));
   add(in.notes, exchanged_warning(steady, at_rest));
 }
