@@ -70,7 +70,8 @@ constexpr NoteKind kKinds[] = {
   warning("forces.found_anew", "drive.by",
     "Tissue or support was changed after a run whose forces were not held: other forces were found."),
   warning("drive.points_off", "drive.points",
-    "A driven point ends more than 0.1 mm from where it is driven."),
+    "A driven point ends more than 0.1 mm from where it is driven. The cause is named where one can "
+    "be established."),
   warning("contact.no_equilibrium", "contact",
     "At finite strain no equilibrium with contact was found in some frames."),
   warning("solver.reduced_not_converged", "solver.method",
