@@ -118,6 +118,14 @@ TEST_F(InputNotes, NameThePointThatDoesNotFitInPlaceOfAMisfit) {
                                             says("ibug68_54 lies 60.0 mm"))));
 }
 
+TEST_F(InputNotes, NameAWrongLandmarkOnce) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilion_R"] = landmarks["cheek_R"];
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("landmarks.doubtful"), says("landmark cheilion_R"))));
+}
+
 TEST_F(InputNotes, NameTheUnitThatFits) {
   open(0, 16, [](motion::Motion& m) {
     for (auto& sample : m.positions) sample *= 0.1;
