@@ -137,6 +137,12 @@ void enlarge_the_motion(const fs::path& folder) {
   });
 }
 
+void displace_a_marker(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (Points& sample : m.positions) sample(m.index_of(face::ibug(54)), 1) += 0.02;
+  });
+}
+
 void exchange_the_corners(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     std::swap(m.names[std::size_t(m.index_of("cheilion_L"))],
@@ -219,6 +225,7 @@ const std::vector<NotedScene>& noted_scenes() {
        write_weights},
       {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
+      {"recording.point_off", true, "", displace_a_marker},
       {"sides.exchanged_pair", true, "", exchange_the_corners},
       {"anatomy.no_mandible", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
        write_skull},

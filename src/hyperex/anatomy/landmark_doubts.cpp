@@ -102,7 +102,21 @@ void doubt_surface(const io::Landmarks& given, const TriMesh& scan, Doubts& doub
   }
 }
 
+Doubts doubts_of(const io::Landmarks& given, const TriMesh& scan) {
+  Doubts doubts;
+  doubt_pairs(given, doubts);
+  doubt_surprises(given, doubts);
+  doubt_surface(given, scan, doubts);
+  return doubts;
+}
+
 }  // namespace
+
+std::vector<std::string> doubtful_landmarks(const io::Landmarks& given, const TriMesh& scan) {
+  std::vector<std::string> names;
+  for (const auto& [name, doubt] : doubts_of(given, scan)) names.push_back(name);
+  return names;
+}
 
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmarks& found) {
   std::vector<Note> notes;
@@ -119,10 +133,7 @@ std::vector<Note> landmark_doubts(const io::Landmarks& given, const io::Landmark
 }
 
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& scan) {
-  Doubts doubts;
-  doubt_pairs(given, doubts);
-  doubt_surprises(given, doubts);
-  doubt_surface(given, scan, doubts);
+  const Doubts doubts = doubts_of(given, scan);
   std::vector<std::pair<std::string, Doubt>> order(doubts.begin(), doubts.end());
   std::stable_sort(order.begin(), order.end(),
                    [](const auto& a, const auto& b) { return a.second.weight > b.second.weight; });

@@ -47,6 +47,8 @@ std::vector<LandmarkSurprise> landmark_surprises(const io::Landmarks& given,
 ///  * a landmark is more than 5 mm off the scan's surface.
 /// These landmarks are only reported. complete_landmarks refuses landmarks, by far wider bounds.
 std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& scan);
+/// The names of these landmarks, also where there are many; rising.
+std::vector<std::string> doubtful_landmarks(const io::Landmarks& given, const TriMesh& scan);
 
 /// The same by landmarks that the program found on this scan: those more than 7 mm and 3.5 standard
 /// deviations from the places that these predict (landmark_surprises). Single landmarks were moved

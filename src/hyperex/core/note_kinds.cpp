@@ -63,7 +63,11 @@ constexpr NoteKind kKinds[] = {
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
-    "20, or the scale is outside 0.8 to 1.25."),
+    "20, or the scale is outside 0.8 to 1.25. Points of recording.point_off do not count."),
+  warning("recording.point_off", "motion.file",
+    "After a fit that wrong points do not pull, a point is more than 8 mm and four times the median "
+    "from the scan's landmark of its name, and its neighbours are not. 30 mm hold for points that "
+    "people place differently, and where fewer than 20 points are common."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
     "refused."),
@@ -91,7 +95,8 @@ constexpr NoteKind kKinds[] = {
   warning("forces.found_anew", "drive.by",
     "Tissue or support was changed after a run whose forces were not held: other forces were found."),
   warning("drive.points_off", "drive.points",
-    "A driven point ends more than 0.1 mm from where it is driven."),
+    "A driven point ends more than 0.1 mm from where it is driven. The cause is named where one can "
+    "be established."),
   warning("contact.no_equilibrium", "contact",
     "At finite strain no equilibrium with contact was found in some frames."),
   warning("solver.reduced_not_converged", "solver.method",

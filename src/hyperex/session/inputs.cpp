@@ -97,6 +97,29 @@ void check_unaligned(const scene::Scene& scene,
   note_missing_support(scene, in);
 }
 
+bool has_own_landmarks(const scene::Scene& scene) {
+  return !scene.scan.landmarks.empty() || !scene.given.landmarks.empty();
+}
+
+/// Points of a camera's recording or of a face model are no points that a user could correct. A
+/// point at a doubtful landmark is not named again.
+void note_misfit(const scene::Scene& scene, const io::Landmarks& given,
+                 const motion::Motion& steady, Inputs& in) {
+  const bool of_a_model = of_weights(scene) || !scene.motion.candide.empty();
+  Misfit fit{in.motion.rms_mm, in.motion.scan_from_motion.scale, in.motion.common.size()};
+  if (!of_a_model && scene.motion.recording.empty()) {
+    MisplacedPoints misplaced = misplaced_points(steady, in.landmarks);
+    if (!misplaced.points.empty()) {
+      fit = misplaced.others;
+      if (has_own_landmarks(scene))
+        for (const std::string& name : anatomy::doubtful_landmarks(given, in.scan.mesh))
+          std::erase_if(misplaced.points, [&](const auto& point) { return point.name == name; });
+    }
+    add(in.notes, misplaced_warning(misplaced));
+  }
+  add(in.notes, misfit_warning(fit, steady.unit_note, of_a_model));
+}
+
 void align_recording(const scene::Scene& scene, const io::Landmarks& given,
                      const motion::Motion& steady, Inputs& in) {
   const FaceAtRest at_rest{in.landmarks, "the scan"};
@@ -109,11 +132,9 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
       fmt::format("aligned by {} common points, scale {:.3f}, {:.1f} mm rms apart before the "
                   "smooth correction",
                   in.motion.common.size(), in.motion.scan_from_motion.scale, in.motion.rms_mm)));
-  if (!scene.scan.landmarks.empty() || !scene.given.landmarks.empty())
-    append(in.notes, anatomy::landmark_doubts(given, in.scan.mesh));
+  if (has_own_landmarks(scene)) append(in.notes, anatomy::landmark_doubts(given, in.scan.mesh));
   add(in.notes, idle_law_warning(scene));
-  const scene::MotionOptions& recorded = scene.motion;
-  add(in.notes, misfit_warning(in.motion, of_weights(scene) || !recorded.candide.empty()));
+  note_misfit(scene, given, steady, in);
   add(in.notes, start_warning(steady, at_rest, of_weights(scene)));
   add(in.notes, exchanged_warning(steady, at_rest));
 }

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <cmath>
 #include <limits>
 
 #include "hyperex/core/quantile.hpp"
@@ -47,6 +48,19 @@ std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, 
   return nearest;
 }
 
+/// The unit in which the recording has the scan's size, if it is another than the one read.
+/// `unit_note`: as Motion has it, "mm (as the columns say)".
+std::optional<io::LengthUnit> unit_that_fits(double scale, const std::string& unit_note) {
+  constexpr double within = 0.05;
+  const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' ')));
+  if (!read) return std::nullopt;
+  for (const Word<io::LengthUnit>& word : words_of(io::LengthUnit{})) {
+    const double ratio = io::metres_per(word.value) / io::metres_per(*read);
+    if (word.value != *read && std::abs(scale / ratio - 1) <= within) return word.value;
+  }
+  return std::nullopt;
+}
+
 double misfit_m(const Points& recorded, const Points& scanned) {
   return rms_distance(fit_similarity(recorded, scanned).apply(recorded), scanned);
 }
@@ -78,18 +92,24 @@ void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
                              1e3 * as_is, face.whose, 1e3 * mirrored));
 }
 
-std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool of_a_model) {
-  const double scale = aligned.scan_from_motion.scale;
-  const double most_mm =
-      of_a_model || aligned.common.size() < kManyCommon ? kMisfit_mm : kMisfitOfPeople_mm;
-  if (aligned.rms_mm <= most_mm && scale >= kLeastScale && scale <= kMostScale) return std::nullopt;
+std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_note,
+                                   bool of_a_model) {
+  const double most_mm = of_a_model || fit.common < kManyCommon ? kMisfit_mm : kMisfitOfPeople_mm;
+  if (fit.rms_mm <= most_mm && fit.scale >= kLeastScale && fit.scale <= kMostScale)
+    return std::nullopt;
+  const auto unit = unit_that_fits(fit.scale, unit_note);
   return make_warning(
       "recording.fits_badly",
       fmt::format(
           "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's "
-          "landmarks of the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to "
-          "{:g}); check that names, axes and unit are right and that both are of one person",
-          aligned.rms_mm, scale, most_mm, kLeastScale, kMostScale));
+          "landmarks of the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} "
+          "to {:g}); {}",
+          fit.rms_mm, fit.scale, most_mm, kLeastScale, kMostScale,
+          unit ? fmt::format("its lengths are as if in {}, and were read as {}: correct the "
+                             "unit there or in motion.unit",
+                             io::name_of(*unit), unit_note)
+               : "check that names, axes and unit are right and that both are of one "
+                 "person"));
 }
 
 std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,

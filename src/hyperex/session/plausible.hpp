@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/misplaced_points.hpp"
 
 namespace hyperex::session {
 
@@ -29,7 +30,9 @@ void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 /// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
 /// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
 /// else 10 mm. `of_a_model`: the points are of an average face that expressions move; 10 mm.
-std::optional<Note> misfit_warning(const simulate::AlignedMotion& aligned, bool of_a_model);
+/// `unit_note`: Motion::unit_note; where the scale is that of another unit, the warning names it.
+std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_note,
+                                   bool of_a_model);
 
 /// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
 /// (motion::started_in_expression). `of_weights`: of blend shapes, whose rest is known; never.

@@ -146,6 +146,31 @@ TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
   EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.fits_badly"), says("0.667"))));
 }
 
+TEST_F(InputNotes, NameThePointThatDoesNotFitInPlaceOfAMisfit) {
+  open(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample(m.index_of("ibug68_54"), 2) += 0.06;
+  });
+  EXPECT_GT(read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick).motion.rms_mm, 5);
+  EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.point_off"),
+                                            says("ibug68_54 lies 60.0 mm"))));
+}
+
+TEST_F(InputNotes, NameAWrongLandmarkOnce) {
+  io::Landmarks landmarks = good_landmarks();
+  landmarks["cheilion_R"] = landmarks["cheek_R"];
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("landmarks.doubtful"), says("landmark cheilion_R"))));
+}
+
+TEST_F(InputNotes, NameTheUnitThatFits) {
+  open(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample *= 0.1;
+  });
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("recording.fits_badly"), says("as if in cm"))));
+}
+
 TEST_F(InputNotes, TellAnotherPersonsFaceFromTheOwnAsADepthCameraSeesIt) {
   // A face that is `share` taller than the scan's.
   const auto read_taller = [&](double share) {

@@ -18,6 +18,8 @@ using test::is_about;
 using test::is_warning;
 using test::says;
 using testing::AllOf;
+using testing::HasSubstr;
+using testing::Not;
 using testing::Optional;
 
 /// One triangle of the simulated skin, `off_m` above a vertex of the scan at its centre.
@@ -85,11 +87,7 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
 
 TEST(MisfitWarning, DependsOnHowManyPointsAreCommon) {
   const auto warned = [](double rms_mm, std::size_t common, bool of_a_model, double scale = 1) {
-    simulate::AlignedMotion aligned;
-    aligned.rms_mm = rms_mm;
-    aligned.common.assign(common, "a point");
-    aligned.scan_from_motion.scale = scale;
-    return misfit_warning(aligned, of_a_model).has_value();
+    return misfit_warning({rms_mm, scale, common}, "mm (as stated)", of_a_model).has_value();
   };
   EXPECT_TRUE(warned(5.1, 20, false));
   EXPECT_FALSE(warned(4.9, 20, false));
@@ -100,6 +98,24 @@ TEST(MisfitWarning, DependsOnHowManyPointsAreCommon) {
   EXPECT_TRUE(warned(1, 68, false, 0.79));
   EXPECT_TRUE(warned(1, 68, false, 1.26));
   EXPECT_FALSE(warned(1, 68, false, 1.24));
+}
+
+TEST(MisfitWarning, NamesTheUnitWhoseScaleItIs) {
+  const auto text = [](double scale, const std::string& unit_note) {
+    return misfit_warning({0.1, scale, 68}, unit_note, false).value().text;
+  };
+  EXPECT_THAT(text(10, "mm (as the columns say)"),
+              AllOf(HasSubstr("as if in cm, and were read as mm (as the columns say)"),
+                    Not(HasSubstr("one person"))));
+  EXPECT_THAT(text(9.6, "mm (as stated)"), HasSubstr("as if in cm"));
+  EXPECT_THAT(text(1040, "mm (as the file says)"), HasSubstr("as if in m,"));
+  EXPECT_THAT(text(0.1, "cm (as stated)"), HasSubstr("as if in mm"));
+  EXPECT_THAT(text(100, "cm (as stated)"), HasSubstr("as if in m,"));
+  for (const auto& [scale, unit_note] : {std::pair{9.4, "mm (as stated)"},
+                                         {10.0, "cm (as stated)"},
+                                         {10.0, "cm, mm (as the columns say)"},
+                                         {10.0, ""}})
+    EXPECT_THAT(text(scale, unit_note), AllOf(HasSubstr("one person"), Not(HasSubstr("as if"))));
 }
 
 TEST(IdleLawWarning, NamesKeysOfFiniteStrainWhereNothingHasIt) {

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/simulate/run/points_off.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
@@ -87,22 +88,24 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
   report.lip_gap_mm = lips.gap_mm;
   // Surgery moves them away from where they were recorded.
   if (p.neutral_displacement_m.rows() == 0)
-    note_driven_off(driven.off_m(p, points), p.driven_names);
+    note_driven_off(driven.off_m(p, points), points, p.frame_time_s);
 }
 
-void Simulator::Impl::note_driven_off(const std::vector<double>& off_m,
-                                      const std::vector<std::string>& points) {
+void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const PointCurve& points,
+                                      const std::vector<double>& frame_time_s) {
+  const DrivenPoints& driven = stages.points.value();
   std::string names;
   for (std::size_t i = 0; i < off_m.size(); ++i) {
     report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
-    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + points[i];
+    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + driven.names[i];
   }
-  if (!names.empty())
-    warn("drive.points_off", "drive.points",
-         fmt::format("driven points end up to {:.2f} mm from where they are driven: {}; points "
-                     "that lie closer together than the elements and move differently are met only "
-                     "on average",
-                     report.driven_off_mm, names));
+  if (names.empty()) return;
+  const std::string reason =
+      reason_of(farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m),
+                options, report.contact.frames > 0);
+  warn("drive.points_off", "drive.points",
+       fmt::format("driven points end up to {:.2f} mm from where they are driven: {}{}{}",
+                   report.driven_off_mm, names, reason.empty() ? "" : "; ", reason));
 }
 
 void Simulator::Impl::warn(const char* id, const char* key, std::string text) {

@@ -144,7 +144,8 @@ struct Simulator::Impl {
                                                    const PointCurve& points) const;
   void describe_tissue(Performance& p);
   void describe_skin(const PointCurve& points, Performance& p);
-  void note_driven_off(const std::vector<double>& off_m, const std::vector<std::string>& points);
+  void note_driven_off(const std::vector<double>& off_m, const PointCurve& points,
+                       const std::vector<double>& frame_time_s);
   void warn(const char* id, const char* key, std::string text);
 
   // ----- contact

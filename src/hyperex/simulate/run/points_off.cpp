@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/run/points_off.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace hyperex::simulate {
+namespace {
+
+/// A point within one edge of the mesh is not far from it, nor is one within this distance.
+constexpr double kNearMesh_m = 0.010;
+/// Points within this distance of each other have the same nodes, whatever drives them.
+constexpr double kOnePlace_m = 0.001;
+/// A cause that accounts for this share of the distance is named.
+constexpr double kMostOfIt = 0.75;
+
+double departure_m(const PointCurve& wanted, int row, double time_s, double step_s) {
+  const double before_s = step_s * std::floor(time_s / step_s);
+  const double share = (time_s - before_s) / step_s;
+  const auto at = [&](double t_s) -> Vec3 { return wanted.at(t_s).row(row).transpose(); };
+  return (at(time_s) - (1 - share) * at(before_s) - share * at(before_s + step_s)).norm();
+}
+
+/// Of the outer triangles that have one of the nodes.
+double longest_edge_m(const TriMesh& outer, const std::vector<int>& nodes) {
+  double longest_m = 0;
+  for (Eigen::Index t = 0; t < outer.triangles.rows(); ++t) {
+    const auto has = [&](int node) { return (outer.triangles.row(t).array() == node).any(); };
+    if (std::ranges::none_of(nodes, has)) continue;
+    for (int k = 0; k < 3; ++k) {
+      const int from = outer.triangles(t, k), to = outer.triangles(t, (k + 1) % 3);
+      longest_m = std::max(longest_m, (outer.points.row(from) - outer.points.row(to)).norm());
+    }
+  }
+  return longest_m;
+}
+
+void find_mesh_place(const tissue::TissueMesh& mesh, const DrivenPoints& driven, std::size_t worst,
+                     FarthestPoint& out) {
+  const CarrierMatrix carrier = carriers(mesh, {driven.places[worst]});
+  std::vector<int> nodes;
+  Vec3 followed = Vec3::Zero();
+  for (CarrierMatrix::InnerIterator it(carrier, 0); it; ++it) {
+    nodes.push_back(int(it.col()));
+    followed += it.value() * mesh.volume.outer.points.row(it.col()).transpose();
+  }
+  out.from_mesh_m = (driven.rest.row(Eigen::Index(worst)).transpose() - followed).norm();
+  out.edge_m = longest_edge_m(mesh.volume.outer, nodes);
+}
+
+void find_neighbour(const DrivenPoints& driven, const PointCurve& wanted,
+                    const std::vector<double>& frame_time_s, std::size_t worst,
+                    FarthestPoint& out) {
+  std::vector<double> apart_m(driven.rows.size(), 0);
+  for (const double time_s : frame_time_s) {
+    const Points there = wanted.at(time_s);
+    for (std::size_t i = 0; i < apart_m.size(); ++i)
+      apart_m[i] =
+          std::max(apart_m[i], (there.row(driven.rows[i]) - there.row(driven.rows[worst])).norm());
+  }
+  for (std::size_t i = 0; i < apart_m.size(); ++i) {
+    const double distance_m =
+        (driven.rest.row(Eigen::Index(i)) - driven.rest.row(Eigen::Index(worst))).norm();
+    if (i == worst || apart_m[i] < out.off_m || distance_m >= out.neighbour_m) continue;
+    out.neighbour = driven.names[i];
+    out.neighbour_m = distance_m;
+  }
+}
+
+bool changes_muscles(const MuscleOptions& muscles) {
+  return muscles.mirrored ||
+         std::ranges::any_of(muscles.gains, [](const MuscleGain& gain) { return gain.gain != 1; });
+}
+
+}  // namespace
+
+FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints& driven,
+                             const PointCurve& wanted, const std::vector<double>& frame_time_s,
+                             double step_s, const std::vector<double>& off_m) {
+  const auto worst = std::size_t(std::ranges::max_element(off_m) - off_m.begin());
+  FarthestPoint out;
+  out.name = driven.names[worst];
+  out.off_m = off_m[worst];
+  for (const double time_s : frame_time_s)
+    out.between_steps_m =
+        std::max(out.between_steps_m, departure_m(wanted, driven.rows[worst], time_s, step_s));
+  find_mesh_place(mesh, driven, worst, out);
+  find_neighbour(driven, wanted, frame_time_s, worst, out);
+  return out;
+}
+
+std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched) {
+  if (options.region.measured == Measured::all) return "";
+  const bool by_forces = options.drive.by != DriveBy::displacement;
+  if (options.model.strain == Strain::linear && point.between_steps_m >= kMostOfIt * point.off_m)
+    return fmt::format(
+        "between steps of time.step_s = {:g} the recorded motion of {} departs from "
+        "a straight line by {:.2f} mm: a shorter step follows it",
+        options.time.step_s, point.name, 1e3 * point.between_steps_m);
+  if (point.from_mesh_m > std::max(kNearMesh_m, point.edge_m))
+    return fmt::format(
+        "the mesh of the tissue ends {:.0f} mm from {}: mesh.trim_border_mm and "
+        "mesh.element_size_mm say where it ends",
+        1e3 * point.from_mesh_m, point.name);
+  // Forces place points that share elements as exactly as any others while the tissue is at rest.
+  if (point.neighbour_m <= (by_forces ? kOnePlace_m : point.edge_m))
+    return fmt::format(
+        "{} is {:.1f} mm from {}, closer than the elements' edges of {:.1f} mm: "
+        "points that lie closer together than the elements and move differently are "
+        "met only on average",
+        point.name, 1e3 * point.neighbour_m, point.neighbour, 1e3 * point.edge_m);
+  if (touched || !by_forces) return "";
+  if (changes_muscles(options.muscles))
+    return "muscles.gain or muscles.mirrored changes the forces that were found for them";
+  return fmt::format(
+      "with drive.by = \"{}\" forces carry the points, which is exact only in static equilibrium "
+      "and in the tissue for which they were found: viscosity and inertia delay a motion; "
+      "drive.by = \"displacement\" meets the points",
+      word_of(options.drive.by));
+}
+
+}  // namespace hyperex::simulate

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "hyperex/simulate/drive/point_curve.hpp"
+#include "hyperex/simulate/options.hpp"
+#include "hyperex/simulate/run/readout.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::simulate {
+
+/// The driven point that ends farthest from where it is driven, and what may explain it.
+struct FarthestPoint {
+  std::string name;
+  double off_m = 0;
+  /// Greatest distance, in any frame, between its recorded place and the straight line between its
+  /// recorded places at the ends of the time step: frames are interpolated between steps.
+  double between_steps_m = 0;
+  double from_mesh_m = 0;  ///< at rest, from the place of the mesh that it follows
+  double edge_m = 0;       ///< longest edge of the mesh's outer triangles at that place
+  /// The nearest driven point whose recorded displacement differs from its own by off_m or more in
+  /// some frame; empty where there is none.
+  std::string neighbour;
+  double neighbour_m = std::numeric_limits<double>::infinity();  ///< distance at rest
+};
+
+/// `off_m`: DrivenPoints::off_m, at least one. `step_s`: of time.
+FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints& driven,
+                             const PointCurve& wanted, const std::vector<double>& frame_time_s,
+                             double step_s, const std::vector<double>& off_m);
+
+/// Why the point ends elsewhere than it is driven, as a part of a sentence. Empty where no cause
+/// can be established. `touched`: contact changed some frame.
+std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched);
+
+}  // namespace hyperex::simulate

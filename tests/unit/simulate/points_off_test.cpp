@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/simulate/run/points_off.hpp"
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "simulate/small_face.hpp"
+#include "support/note_matchers.hpp"
+
+namespace hyperex::simulate {
+namespace {
+using hyperex::test::is_warning;
+using hyperex::test::says;
+using testing::AllOf;
+using testing::Contains;
+using testing::HasSubstr;
+
+/// 2 mm off, and nothing that explains it.
+FarthestPoint unexplained() {
+  FarthestPoint point;
+  point.name = "ibug68_57";
+  point.off_m = 0.002;
+  point.edge_m = 0.012;
+  return point;
+}
+
+SimulationOptions driven_by(DriveBy by) {
+  SimulationOptions options;
+  options.drive.by = by;
+  return options;
+}
+
+TEST(ReasonOff, IsNotGivenWhereNoneCanBeEstablished) {
+  EXPECT_EQ(reason_of(unexplained(), driven_by(DriveBy::displacement), false), "");
+  EXPECT_EQ(reason_of(unexplained(), driven_by(DriveBy::muscles), true), "") << "contact moves it";
+  SimulationOptions measured = driven_by(DriveBy::muscles);
+  measured.region.measured = Measured::all;
+  EXPECT_EQ(reason_of(unexplained(), measured, false), "") << "no forces act";
+}
+
+TEST(ReasonOff, IsAStepThatIsTooLongForTheMotion) {
+  FarthestPoint point = unexplained();
+  point.between_steps_m = 0.0018;
+  SimulationOptions options = driven_by(DriveBy::displacement);
+  options.time.step_s = 0.1;
+  EXPECT_THAT(reason_of(point, options, false),
+              AllOf(HasSubstr("time.step_s = 0.1"), HasSubstr("1.80 mm")));
+  options.model.strain = Strain::finite;
+  EXPECT_EQ(reason_of(point, options, false), "") << "its steps are others";
+  options.model.strain = Strain::linear;
+  point.between_steps_m = 0.001;
+  EXPECT_EQ(reason_of(point, options, false), "") << "it explains half of the distance";
+}
+
+TEST(ReasonOff, IsThatTheMeshEndsBeforeThePoint) {
+  FarthestPoint point = unexplained();
+  point.from_mesh_m = 0.0436;
+  for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles})
+    EXPECT_THAT(reason_of(point, driven_by(by), false),
+                AllOf(HasSubstr("44 mm from ibug68_57"), HasSubstr("mesh.trim_border_mm")));
+  point.from_mesh_m = 0.011;
+  EXPECT_EQ(reason_of(point, driven_by(DriveBy::displacement), false), "") << "within an edge";
+  point.edge_m = 0.003;
+  point.from_mesh_m = 0.008;
+  EXPECT_EQ(reason_of(point, driven_by(DriveBy::displacement), false), "") << "a marker's height";
+}
+
+TEST(ReasonOff, IsAPointCloserThanTheElementsThatMovesDifferently) {
+  FarthestPoint point = unexplained();
+  point.neighbour = "ibug68_58";
+  point.neighbour_m = 0.0042;
+  const std::string reason = reason_of(point, driven_by(DriveBy::displacement), false);
+  EXPECT_THAT(reason, AllOf(HasSubstr("4.2 mm from ibug68_58"), HasSubstr("12.0 mm")));
+  EXPECT_NE(reason_of(point, driven_by(DriveBy::muscles), false), reason)
+      << "forces meet such points as exactly as others";
+  point.neighbour_m = 0.0125;
+  EXPECT_EQ(reason_of(point, driven_by(DriveBy::displacement), false), "");
+  point.neighbour_m = 0.0005;
+  EXPECT_THAT(reason_of(point, driven_by(DriveBy::muscles), false), HasSubstr("from ibug68_58"))
+      << "at one place no drive meets both";
+}
+
+TEST(ReasonOff, IsThatForcesDriveIt) {
+  EXPECT_THAT(reason_of(unexplained(), driven_by(DriveBy::muscles), false),
+              HasSubstr("drive.by = \"muscles\""));
+  EXPECT_THAT(reason_of(unexplained(), driven_by(DriveBy::reactions), false),
+              HasSubstr("drive.by = \"reactions\""));
+  SimulationOptions weaker = driven_by(DriveBy::muscles);
+  weaker.muscles.gains = {{"zyg_major_L", 0.5}};
+  EXPECT_THAT(reason_of(unexplained(), weaker, false), HasSubstr("muscles.gain"));
+  weaker.muscles.gains = {{"zyg_major_L", 1}};
+  EXPECT_THAT(reason_of(unexplained(), weaker, false), HasSubstr("drive.by"));
+}
+
+class FarthestPointOfAFace : public testing::Test {
+ protected:
+  /// Of the middle of the lower lip, its neighbour and the chin. The middle alone moves: by 6 mm in
+  /// the second of samples that are 0.05 s apart.
+  FarthestPoint found(double step_s, const std::vector<double>& off_m) const {
+    const AlignedMotion motion =
+        test::motion_of(landmarks_, 6, 20, [](const std::string& name, const Vec3&, int k) -> Vec3 {
+          return Vec3(0, k == 1 && name == "ibug68_57" ? 0.006 : 0, 0);
+        });
+    const DrivenPoints driven(face_.mesh, motion, {"ibug68_57", "ibug68_58", "ibug68_8"});
+    return farthest_point(face_.mesh, driven, PointCurve(motion, 1), {0, 0.05, 0.1}, step_s, off_m);
+  }
+
+  const test::SmallFace face_ = test::small_face();
+  io::Landmarks landmarks_ = face_.landmarks;
+};
+
+TEST_F(FarthestPointOfAFace, IsTheOneThatIsFarthestOff) {
+  const FarthestPoint chin = found(0.01, {0.001, 0, 0.002});
+  EXPECT_EQ(chin.name, "ibug68_8");
+  EXPECT_EQ(chin.off_m, 0.002);
+  EXPECT_LT(chin.between_steps_m, 1e-9) << "it does not move";
+  EXPECT_GT(chin.edge_m, 0.003);
+  EXPECT_LT(chin.edge_m, 0.05);
+}
+
+TEST_F(FarthestPointOfAFace, DepartsFromTheLineBetweenLongSteps) {
+  EXPECT_NEAR(found(0.1, {0.002, 0, 0}).between_steps_m, 0.006, 1e-9);
+  EXPECT_LT(found(0.05, {0.002, 0, 0}).between_steps_m, 1e-9) << "frames at the steps' ends";
+}
+
+TEST_F(FarthestPointOfAFace, HasTheNearestNeighbourThatMovesDifferently) {
+  const FarthestPoint lip = found(0.05, {0.004, 0, 0});
+  EXPECT_EQ(lip.neighbour, "ibug68_58");
+  EXPECT_NEAR(lip.neighbour_m, (landmarks_.at("ibug68_57") - landmarks_.at("ibug68_58")).norm(),
+              1e-12);
+  EXPECT_EQ(found(0.05, {0.007, 0, 0}).neighbour, "") << "6 mm do not explain 7 mm";
+  EXPECT_EQ(found(0.05, {0, 0, 0.004}).neighbour, "ibug68_57");
+}
+
+TEST_F(FarthestPointOfAFace, IsAsFarFromTheMeshAsFromTheSkin) {
+  EXPECT_LT(found(0.05, {0, 0, 0.004}).from_mesh_m, 0.005);
+  landmarks_["ibug68_8"].y() -= 0.02;
+  const double expected =
+      std::sqrt(SurfaceTree(face_.mesh.skin).query(landmarks_.at("ibug68_8")).squared_distance);
+  EXPECT_GT(expected, 0.01);
+  EXPECT_NEAR(found(0.05, {0, 0, 0.004}).from_mesh_m, expected, 1e-6);
+}
+
+TEST_F(FarthestPointOfAFace, IsExplainedInTheNoteOfARun) {
+  const auto mesh = std::make_shared<const tissue::TissueMesh>(face_.mesh);
+  const AlignedMotion opening = test::mouth_opening(landmarks_, 10, 13, 30);
+  SimulationOptions options;
+  options.time.step_s = 0.1;
+  EXPECT_THAT(Simulator(mesh, landmarks_, opening, options).run().report.notes,
+              Contains(AllOf(is_warning("drive.points_off"),
+                             says("; between steps of time.step_s = 0.1"))));
+  options.time.step_s = 0.01;
+  options.drive.by = DriveBy::muscles;
+  options.tissue.uniform[tissue::viscosity] = 1e6;
+  EXPECT_THAT(
+      Simulator(mesh, landmarks_, opening, options).run().report.notes,
+      Contains(AllOf(is_warning("drive.points_off"), says("; with drive.by = \"muscles\""))));
+}
+
+}  // namespace
+}  // namespace hyperex::simulate
