@@ -139,7 +139,7 @@ void check_element_size(const scene::Scene& scene, const Inputs& in) {
                     1e3 * share_of_mouth * mouth_m)));
 }
 
-void note_names_of_no_landmark(const scene::Scene& scene, const io::Landmarks& given, Inputs& in) {
+void note_unknown_landmarks(const scene::Scene& scene, const io::Landmarks& given, Inputs& in) {
   std::vector<std::string> unknown = anatomy::unknown_landmarks(given);
   std::erase_if(unknown, [&](const std::string& name) {
     return in.motion.motion.index_of(name) >= 0 ||
