@@ -169,6 +169,7 @@ const std::vector<NotedScene>& noted_scenes() {
        write_weights},
       {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
+      {"time.beyond_recording", true, "time.end_s=2", nullptr},
       {"sides.exchanged_pair", true, "", exchange_the_corners},
       {"anatomy.no_mandible", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
        write_skull},

@@ -48,6 +48,8 @@ constexpr NoteKind kKinds[] = {
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
     "20, or the scale is outside 0.8 to 1.25."),
+  warning("time.beyond_recording", "time.end_s",
+    "The run ends more than 1 s after the recording: the face is held as its last sample shows it."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
     "refused."),
