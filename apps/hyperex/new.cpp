@@ -18,6 +18,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/run_cost.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -67,6 +68,16 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
   }
 }
 
+/// How many frames apart those for ParaView are written, so that the run stays within its bound.
+int vtu_every_of(const scene::Scene& scene) {
+  try {
+    const auto cost = session::cost_before_tracking(scene);
+    return cost ? session::vtu_every_within_bound(scene, *cost) : 1;
+  } catch (const InputError&) {
+    return 1;  // hyperex check reports it
+  }
+}
+
 void write_scene(const std::string& scan, const std::string& motion, fs::path to) {
   const auto refuse_missing = [](const char* what, const std::string& path) {
     if (path != "embedded" && !fs::exists(path))
@@ -95,8 +106,9 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
   if (made.motion_key == "motion.file" && motion != "embedded")
     made.rigid_points = motion::proposed_rigid_points(motion::read_motion(motion));
+  // Throws before anything is written.
+  made.vtu_every = vtu_every_of(scene::read_scene_text(scene::new_scene_text(made), to));
   const std::string text = scene::new_scene_text(made);
-  scene::read_scene_text(text, to);  // throws before anything is written
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "apps/good_inputs.hpp"
@@ -32,6 +33,32 @@ TEST_F(NewCommand, WritesASceneThatPassesTheCheck) {
   const Outcome checked = call("check me.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("no problems found"));
+}
+
+/// Three minutes, whose frames for ParaView would take more than output.most_gb.
+TEST_F(NewCommand, OfALongTakeWritesASceneThatPassesTheCheckToo) {
+  std::string weights = "time_s,mouthSmileLeft,mouthSmileRight\n";
+  for (int k = 0; k <= 1800; ++k)
+    weights += fmt::format("{0:.1f},{1:.4f},{1:.4f}\n", k / 10.0, 0.5 - 0.5 * std::cos(k / 10.0));
+  put(in("long.csv"), weights);
+  const Outcome made = call("new embedded long.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr("\nvtu_every = "));
+  const Outcome checked = call("check me.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Outcome refused = call("check me.toml --set output.vtu_every=1");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("or more, which leaves 20 % to spare"));
+  ASSERT_EQ(call("new embedded embedded --out short.toml").status, 0);
+  EXPECT_THAT(read_file(in("short.toml")), testing::Not(HasSubstr("vtu_every")));
+}
+
+TEST_F(NewCommand, ItsVariantIsLeftOutOfTheCheckAsOfARun) {
+  ASSERT_EQ(call("new face.ply motion.csv --out me.toml").status, 0);
+  EXPECT_THAT(call("check me.toml").out, HasSubstr("; without its variant, "));
+  const Outcome checked = call("check me.toml --no-variants");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("on two idle processors\n"));
 }
 
 TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
