@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/capture/still.hpp"
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
@@ -54,7 +55,16 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
     throw InputError(motion,
                      "is a scan; expected a recording: the scan comes first, then the "
                      "recording");
-  if (motion == "embedded" || kind == "recording" || fs::is_directory(motion)) return;
+  if (motion == "embedded" || fs::is_directory(motion)) return;
+  if (capture::is_picture(motion))
+    throw InputError(motion,
+                     "is one picture, which has no motion; expected a video, a depth camera's "
+                     "recording, a CSV or a TRC");
+  if (kind == "recording") {
+    // throws where not even the first frame can be read
+    if (scene::recording_key(motion) == "motion.recording") capture::open_source(motion);
+    return;
+  }
   // throws, naming the format to export to.
   if (ending_of(motion) == ".c3d") motion::read_motion(motion);
   try {  // perhaps a video with another extension

@@ -5,12 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "support/video.hpp"
 
 namespace hyperex {
 namespace {
@@ -144,6 +146,33 @@ TEST_F(NewCommand, RefusesWhatIsNoRecording) {
   EXPECT_EQ(results.status, 2);
   EXPECT_THAT(results.err,
               HasSubstr("results.csv: this is no recording: it has no column of time"));
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+}
+
+TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {
+  cv::imwrite(in("grey.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90)));
+  const Outcome made = call("new face.ply grey.png --out a.toml");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(made.err,
+              HasSubstr("grey.png: is one picture, which has no motion; expected a video"));
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+  for (const char* command : {"check scene.toml", "run scene.toml --out out"}) {
+    const Outcome refused = call(std::string(command) + " --set motion.recording=grey.png");
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(problems_in(refused.err),
+                testing::ElementsAre(HasSubstr(
+                    "motion.recording = \"grey.png\": expected a video or a depth camera's "
+                    "recording, as one picture has no motion")));
+  }
+}
+
+TEST_F(NewCommand, RefusesAVideoThatCannotBeRead) {
+  SKIP_WITHOUT_VIDEO();
+  put(in("broken.mp4"), std::string(5000, '\x7f'));
+  const Outcome made = call("new face.ply broken.mp4 --out a.toml");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(problems_in(made.err),
+              testing::ElementsAre(HasSubstr("broken.mp4: no video that can be read")));
   EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
 }
 

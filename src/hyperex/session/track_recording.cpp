@@ -108,6 +108,13 @@ RecordedFace track_face(const scene::Scene& scene, Extent extent) {
   return recorded;
 }
 
+void refuse_a_picture(const scene::Scene& scene) {
+  if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::still)
+    throw InputError(
+        scene::problem_at(scene, "motion.recording",
+                          "a video or a depth camera's recording, as one picture has no motion"));
+}
+
 }  // namespace
 
 double expected_length_s(const scene::MotionOptions& options) {
@@ -125,6 +132,7 @@ double expected_length_s(const scene::MotionOptions& options) {
 }
 
 motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs& in) {
+  refuse_a_picture(scene);
   RecordedFace recorded = extent == Extent::quick
                               ? track_face(scene, extent)
                               : recorded_face(scene, [&] { return track_face(scene, extent); });

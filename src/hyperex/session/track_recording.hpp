@@ -20,7 +20,8 @@ std::optional<motion::RestStretch> rest_stretch(const scene::MotionOptions& opti
 double expected_length_s(const scene::MotionOptions& options);
 
 /// The points of motion.recording, tracked, or taken from an earlier run; in a quick reading those
-/// of its first face alone. Notes go into `in`. Throws InputError where no face is found.
+/// of its first face alone. Notes go into `in`. Throws InputError where no face is found
+/// and where the recording is a single picture.
 motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs& in);
 
 }  // namespace hyperex::session
