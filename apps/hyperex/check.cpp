@@ -16,6 +16,7 @@ void add_check(CLI::App& program) {
   struct CheckOptions {
     std::filesystem::path scene;
     std::vector<std::string> overrides;
+    bool no_variants = false;
   };
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
@@ -26,11 +27,14 @@ void add_check(CLI::App& program) {
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
+  command->add_flag("--no-variants", options->no_variants,
+                    "Check the scene without its variants, as hyperex run --no-variants runs it");
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
     std::string cost;
-    const std::vector<Note> found =
-        session::check(scene::read_scene(options->scene, options->overrides), &cost);
+    scene::Scene scene = scene::read_scene(options->scene, options->overrides);
+    if (options->no_variants) scene.variants.clear();
+    const std::vector<Note> found = session::check(scene, &cost);
     const std::vector<std::string> warnings = texts_of(found, Severity::warning);
     for (const auto& note : texts_of(found, Severity::note)) std::cout << printable(note) << '\n';
     for (const auto& warning : warnings) std::cout << "warning: " << printable(warning) << '\n';

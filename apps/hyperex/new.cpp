@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "hyperex/capture/open_source.hpp"
+#include "hyperex/capture/still.hpp"
 #include "hyperex/capture/tum_folder.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
@@ -18,6 +19,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/run_cost.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -53,7 +55,16 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
     throw InputError(motion,
                      "is a scan; expected a recording: the scan comes first, then the "
                      "recording");
-  if (motion == "embedded" || kind == "recording" || fs::is_directory(motion)) return;
+  if (motion == "embedded" || fs::is_directory(motion)) return;
+  if (capture::is_picture(motion))
+    throw InputError(motion,
+                     "is one picture, which has no motion; expected a video, a depth camera's "
+                     "recording, a CSV or a TRC");
+  if (kind == "recording") {
+    // throws where not even the first frame can be read
+    if (scene::recording_key(motion) == "motion.recording") capture::open_source(motion);
+    return;
+  }
   // throws, naming the format to export to.
   if (ending_of(motion) == ".c3d") motion::read_motion(motion);
   try {  // perhaps a video with another extension
@@ -64,6 +75,16 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
                                  "video, an .oni file or a folder with a depth camera's pictures "
                                  "(as a video: {})",
                                  error.what()));
+  }
+}
+
+/// How many frames apart those for ParaView are written, so that the run stays within its bound.
+int vtu_every_of(const scene::Scene& scene) {
+  try {
+    const auto cost = session::cost_before_tracking(scene);
+    return cost ? session::vtu_every_within_bound(scene, *cost) : 1;
+  } catch (const InputError&) {
+    return 1;  // hyperex check reports it
   }
 }
 
@@ -95,8 +116,9 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
   if (made.motion_key == "motion.file" && motion != "embedded")
     made.rigid_points = motion::proposed_rigid_points(motion::read_motion(motion));
+  // Throws before anything is written.
+  made.vtu_every = vtu_every_of(scene::read_scene_text(scene::new_scene_text(made), to));
   const std::string text = scene::new_scene_text(made);
-  scene::read_scene_text(text, to);  // throws before anything is written
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //

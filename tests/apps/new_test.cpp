@@ -4,12 +4,15 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
+#include <opencv2/imgcodecs.hpp>
 #include <utility>
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "support/video.hpp"
 
 namespace hyperex {
 namespace {
@@ -32,6 +35,32 @@ TEST_F(NewCommand, WritesASceneThatPassesTheCheck) {
   const Outcome checked = call("check me.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
   EXPECT_THAT(checked.out, HasSubstr("no problems found"));
+}
+
+/// Three minutes, whose frames for ParaView would take more than output.most_gb.
+TEST_F(NewCommand, OfALongTakeWritesASceneThatPassesTheCheckToo) {
+  std::string weights = "time_s,mouthSmileLeft,mouthSmileRight\n";
+  for (int k = 0; k <= 1800; ++k)
+    weights += fmt::format("{0:.1f},{1:.4f},{1:.4f}\n", k / 10.0, 0.5 - 0.5 * std::cos(k / 10.0));
+  put(in("long.csv"), weights);
+  const Outcome made = call("new embedded long.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr("\nvtu_every = "));
+  const Outcome checked = call("check me.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  const Outcome refused = call("check me.toml --set output.vtu_every=1");
+  EXPECT_EQ(refused.status, 2);
+  EXPECT_THAT(refused.err, HasSubstr("or more, which leaves 20 % to spare"));
+  ASSERT_EQ(call("new embedded embedded --out short.toml").status, 0);
+  EXPECT_THAT(read_file(in("short.toml")), testing::Not(HasSubstr("vtu_every")));
+}
+
+TEST_F(NewCommand, ItsVariantIsLeftOutOfTheCheckAsOfARun) {
+  ASSERT_EQ(call("new face.ply motion.csv --out me.toml").status, 0);
+  EXPECT_THAT(call("check me.toml").out, HasSubstr("; without its variant, "));
+  const Outcome checked = call("check me.toml --no-variants");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, HasSubstr("on two idle processors\n"));
 }
 
 TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
@@ -117,6 +146,33 @@ TEST_F(NewCommand, RefusesWhatIsNoRecording) {
   EXPECT_EQ(results.status, 2);
   EXPECT_THAT(results.err,
               HasSubstr("results.csv: this is no recording: it has no column of time"));
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+}
+
+TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {
+  cv::imwrite(in("grey.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90)));
+  const Outcome made = call("new face.ply grey.png --out a.toml");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(made.err,
+              HasSubstr("grey.png: is one picture, which has no motion; expected a video"));
+  EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+  for (const char* command : {"check scene.toml", "run scene.toml --out out"}) {
+    const Outcome refused = call(std::string(command) + " --set motion.recording=grey.png");
+    EXPECT_EQ(refused.status, 2) << command;
+    EXPECT_THAT(problems_in(refused.err),
+                testing::ElementsAre(HasSubstr(
+                    "motion.recording = \"grey.png\": expected a video or a depth camera's "
+                    "recording, as one picture has no motion")));
+  }
+}
+
+TEST_F(NewCommand, RefusesAVideoThatCannotBeRead) {
+  SKIP_WITHOUT_VIDEO();
+  put(in("broken.mp4"), std::string(5000, '\x7f'));
+  const Outcome made = call("new face.ply broken.mp4 --out a.toml");
+  EXPECT_EQ(made.status, 2);
+  EXPECT_THAT(problems_in(made.err),
+              testing::ElementsAre(HasSubstr("broken.mp4: no video that can be read")));
   EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
 }
 

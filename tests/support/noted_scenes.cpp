@@ -226,6 +226,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
       {"recording.point_off", true, "", displace_a_marker},
+      {"time.beyond_recording", true, "time.end_s=2", nullptr},
       {"sides.exchanged_pair", true, "", exchange_the_corners},
       {"anatomy.no_mandible", true, "anatomy.skull=\"skull.ply\"\nanatomy.unit=\"mm\"",
        write_skull},

@@ -99,6 +99,12 @@ std::string new_scene_text(const NewScene& of) {
     out +=
         "# The face is tracked first; its first frames are taken for the face at rest.\n"
         "# mirrored = true  # where the pictures show the world as a mirror does\n";
+  if (of.vtu_every > 1)
+    out += fmt::format(
+        "\n[output]\n"
+        "# The recording is long: all frames for ParaView would take more than output.most_gb.\n"
+        "vtu_every = {}  # of so many frames one is written\n",
+        of.vtu_every);
   out +=
       "\n[tissue]\n"
       "# young_kpa = 100          # the stiffness of all tissue (Young's modulus)\n"

@@ -23,7 +23,8 @@ struct NewScene {
   std::string unit;                       ///< of the scan: "mm", "cm", "m"; empty: as the file says
   std::string unit_note;                  ///< how the unit was found, for a comment
   std::vector<std::string> rigid_points;  ///< found in the recording; empty: none to be written
-  std::string name;  ///< of the scene's file without its extension; for the title and commands
+  std::string name;   ///< of the scene's file without its extension; for the title and commands
+  int vtu_every = 1;  ///< output.vtu_every of a long recording; 1: not written
 };
 
 /// The text of the scene, with comments that say what to change next. It has one variant, so that a

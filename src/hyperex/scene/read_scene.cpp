@@ -136,6 +136,10 @@ void SceneReader::take_override(const Override& given) {
   if (wordy && !value.is_string()) value = value_text;
   if (is_section(name))
     complain(origin, name, value, "a key of the section, as in " + name + ".KEY=VALUE");
+  else if (name == "variant")
+    complain(origin, name, value,
+             "a key; variants stand in the scene file, and --no-variants of hyperex run and "
+             "hyperex check leaves them out");
   else
     take(name, {value, origin, true, folder});
 }

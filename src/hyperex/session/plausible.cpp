@@ -242,6 +242,18 @@ void check_length(const scene::Scene& scene, const motion::Motion& m) {
                                   lasts_s, scene.time.frame_rate_hz));
 }
 
+std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double lasts_s) {
+  constexpr double most_held_s = 1;
+  const double held_s = scene.time.end_s - lasts_s;
+  if (lasts_s <= 0 || held_s <= most_held_s) return std::nullopt;
+  return make_warning(
+      "time.beyond_recording",
+      fmt::format("time.end_s = {:g} s is {:.4g} s after the end of the recording: until then the "
+                  "face is held as its last sample shows it (expected: at most {:.4g} s, or 0 to "
+                  "end with the recording)",
+                  scene.time.end_s, held_s, lasts_s + most_held_s));
+}
+
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
   SkinOff worst;
   for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v) {

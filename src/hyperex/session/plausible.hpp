@@ -66,6 +66,10 @@ std::optional<Note> idle_law_warning(const scene::Scene& scene);
 /// its second frame.
 void check_length(const scene::Scene& scene, const motion::Motion& m);
 
+/// `time.beyond_recording`: time.end_s is more than a second after the end of the recording, which
+/// lasts `lasts_s` of the run; 0: not known.
+std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double lasts_s);
+
 /// Where the simulated skin is farthest from the scan on the face, that is within 25 mm of a
 /// landmark; ears, neck and border may be far off.
 struct SkinOff {

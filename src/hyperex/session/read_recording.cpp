@@ -268,6 +268,7 @@ void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, I
     in.lasts_s =
         scene.motion.time_scale * std::max(0.0, in.lasts_s - scene.motion.start_s + in.lead_s);
   }
+  add(in.notes, beyond_recording_warning(scene, in.lasts_s));
 }
 
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {

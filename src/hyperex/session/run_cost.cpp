@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "hyperex/geometry/surface_topology.hpp"
+#include "hyperex/session/drive_choice.hpp"
+#include "hyperex/session/read_scan.hpp"
+#include "hyperex/session/track_recording.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -32,7 +35,26 @@ constexpr double kPageBytes = 0.7e6, kPageVertexBytes = 150, kPageFrameBytes = 8
 constexpr double kOwnMemory = 0.03e9, kVertexMemory = 1.5e3, kNodeMemory = 120e3;
 /// The processors' seconds of those nine runs (2.1 to 17.8) are 0.7 to 1.4 of the estimate.
 constexpr double kOwnSeconds = 0.7, kVertexSeconds = 5e-5;
-constexpr double kNodeSeconds = 6e-4, kFrameNodeSeconds = 8e-7, kWriteNodeSeconds = 6e-7;
+constexpr double kNodeSeconds = 6e-4, kWriteNodeSeconds = 6e-7;
+
+// The following were measured on runs of the embedded face with a recorded range of motion of 134 s
+// (10, 40 and 134 s of it), a smile of 2 s and a mouth opening of 2.7 s, held for up to 240 s.
+// Other programs kept the processors busy, so the constants are a fifth below what was measured.
+
+/// A step of the reduced model, whatever the number of nodes: its unknowns are some 20 where the
+/// face holds or has one expression, about 210 (muscles) or 70 (displacement) in a long take.
+constexpr double kMuscleStepSeconds = 1.2e-3, kDisplacementStepSeconds = 1.2e-4;
+constexpr double kHeldStepSeconds = 2e-5;
+/// A step of the full model per node, at kStepNodes nodes (docs/performance.md: 3.34 ms on 1.69
+/// processors at 6396 nodes). The entries of its factor grow as the 4/3rd power of the nodes.
+constexpr double kFullStepNodeSeconds = 8.8e-7, kStepNodes = 6396;
+/// A frame of each vertex of the skin; with performance.glb or report.html besides. Both take more
+/// where the recording has more shapes, which long ones have, up to about kVariedFrames frames.
+constexpr double kFrameVertexSeconds = 2.5e-7, kPageFrameVertexSeconds = 1.2e-7;
+constexpr double kVariedSeconds = 7e-10, kVariedFrames = 1000;
+/// A frame in which something touches, per node: 0.8e-5 to 1.4e-5 in three runs of a smile and of
+/// the range of motion, in which lips or cheeks touched something in 10 to 50 % of the frames.
+constexpr double kContactFrameNodeSeconds = 1.5e-5;
 
 /// An error budget, relative to a run without outputs: twelve runs, of which five share the mesh
 /// and one is of the other law.
@@ -68,6 +90,48 @@ double files_bytes(const scene::OutputOptions& output, double frames, double ski
 /// Without the frames.
 double memory_of(const MeshSize& mesh) {
   return kOwnMemory + kVertexMemory * mesh.skin + kNodeMemory * mesh.nodes;
+}
+
+/// The recording's part of the run and the part after it, in which the face is held.
+struct RunParts {
+  double moving_s = 0, held_s = 0;
+};
+
+double steps_seconds(const scene::Scene& scene, const RunParts& parts, double nodes) {
+  const double moving = parts.moving_s / scene.time.step_s, held = parts.held_s / scene.time.step_s;
+  const double full_step = kFullStepNodeSeconds * nodes * std::cbrt(nodes / kStepNodes);
+  if (scene.solver.method == simulate::SolverMethod::direct) return (moving + held) * full_step;
+  const bool muscles = drive_choice(scene).by == simulate::DriveBy::muscles;
+  return moving * (muscles ? kMuscleStepSeconds : kDisplacementStepSeconds) +
+         held * kHeldStepSeconds + (scene.solver.verify ? (moving + held) * full_step : 0);
+}
+
+/// performance.glb and report.html.
+double pages_seconds(const scene::Scene& scene, const RunParts& parts, double frames, double skin) {
+  const double varied = std::min(kVariedFrames, parts.moving_s * scene.time.frame_rate_hz);
+  const int pages = int(scene.output.glb) + int(scene.output.report);
+  return pages * frames * skin * (kPageFrameVertexSeconds + kVariedSeconds * varied);
+}
+
+/// Sets the times. At finite strain they are not known: the iterations depend on the motion.
+void add_seconds(const scene::Scene& scene, const MeshSize& mesh, const RunParts& parts,
+                 RunCost& cost) {
+  const scene::OutputOptions& output = scene.output;
+  const double mesh_s = kNodeSeconds * mesh.nodes;
+  const double motion_s =
+      steps_seconds(scene, parts, mesh.nodes) + kFrameVertexSeconds * cost.frames * mesh.skin;
+  const double pages_s = pages_seconds(scene, parts, cost.frames, mesh.skin);
+  const double variant_s = 0.3 * mesh_s + motion_s;
+  cost.variants_seconds = cost.variants * (variant_s + pages_s);
+  cost.seconds = kOwnSeconds + kVertexSeconds * mesh.skin + mesh_s + motion_s + pages_s +
+                 cost.variants_seconds;
+  if (output.vtu) cost.seconds += kWriteNodeSeconds * cost.frames * mesh.nodes / output.vtu_every;
+  if (output.error_budget)
+    cost.budget_seconds = kBudgetRuns * (mesh_s + motion_s + cost.variants * variant_s);
+  cost.seconds += cost.budget_seconds;
+  if (scene.contact.any())
+    cost.contact_seconds = kContactFrameNodeSeconds * cost.frames * mesh.nodes *
+                           (1 + cost.variants) * (output.error_budget ? 1 + kBudgetRuns : 1);
 }
 
 std::string size_text(double bytes) {
@@ -114,17 +178,21 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   cost.motion_bytes = 12 * faces * cost.frames * (mesh.skin + mesh.nodes);
   cost.memory_bytes = memory_of(mesh) + cost.motion_bytes;
   if (output.error_budget) cost.memory_bytes += memory_of(mesh);  // of one more face at a time
-  if (finite || scene.contact.any()) return cost;
-  const double each_s = kFrameNodeSeconds * cost.frames * mesh.nodes;
-  cost.variants_seconds = cost.variants * (0.3 * kNodeSeconds * mesh.nodes + each_s);
-  cost.seconds = kOwnSeconds + kVertexSeconds * mesh.skin + kNodeSeconds * mesh.nodes + each_s +
-                 cost.variants_seconds +
-                 (output.vtu ? kWriteNodeSeconds * cost.frames * mesh.nodes / output.vtu_every : 0);
-  if (output.error_budget)
-    cost.budget_seconds =
-        kBudgetRuns * (kNodeSeconds * mesh.nodes + each_s + cost.variants_seconds);
-  cost.seconds += cost.budget_seconds;
+  if (finite) return cost;
+  const double moving_s = lasts_s > 0 ? std::min(end_s, lasts_s) : end_s;
+  add_seconds(scene, mesh, {moving_s, end_s - moving_s}, cost);
   return cost;
+}
+
+std::optional<RunCost> cost_before_tracking(const scene::Scene& scene) {
+  if (scene.motion.recording.empty())
+    return expected_cost(scene, read_inputs(scene, Extent::quick), Extent::quick);
+  Inputs inputs;
+  read_scan(scene, inputs);
+  if (const io::Landmarks given = given_landmarks(scene); !given.empty())
+    complete_landmarks(scene, given, inputs.scan, inputs);
+  inputs.lasts_s = expected_length_s(scene.motion);
+  return expected_cost(scene, inputs, Extent::quick);
 }
 
 std::string sentence_of(const RunCost& cost) {
@@ -138,6 +206,9 @@ std::string sentence_of(const RunCost& cost) {
   text += fmt::format(", {} on two idle processors", time_text(cost.seconds));
   if (cost.budget_seconds > 0)
     text += fmt::format(", {} of them for the error budget", time_text(cost.budget_seconds));
+  if (cost.contact_seconds > 0)
+    text += fmt::format("; contact adds up to {}, where something touches in every frame",
+                        time_text(cost.contact_seconds));
   if (cost.variants > 0)
     text += fmt::format("; without {}, {} less (--no-variants)",
                         cost.variants == 1 ? "its variant" : "its variants",
@@ -147,9 +218,18 @@ std::string sentence_of(const RunCost& cost) {
 
 namespace {
 
+/// An estimate may be too low by a fifth.
+constexpr double kSpare = 1.2;
+
 /// The bound (GB) that allows `bytes` plus a fifth.
 double allowing_gb(double bytes) {
-  return std::ceil(1.2e-8 * bytes) / 10;
+  return std::ceil(1e-8 * kSpare * bytes) / 10;
+}
+
+/// "4.1 or more, which leaves 20 % to spare"
+std::string spare_text(double bytes) {
+  return fmt::format("{:.3g} or more, which leaves {:.0f} % to spare", allowing_gb(bytes),
+                     100 * (kSpare - 1));
 }
 
 void check_disk(const scene::Scene& scene, const RunCost& cost, const std::vector<Note>& notes) {
@@ -168,7 +248,7 @@ void check_disk(const scene::Scene& scene, const RunCost& cost, const std::vecto
   throw InputError(scene::problem_at(
       scene, "output.most_gb",
       fmt::format(
-          "{:.3g} or more, as the run would write about {}{}", allowing_gb(cost.disk_bytes),
+          "{}, as the run would write about {}{}", spare_text(cost.disk_bytes),
           size_text(cost.disk_bytes),
           cost.frames_bytes > 0 ? frames : " (time.start_s and time.end_s shorten the run)")));
 }
@@ -178,8 +258,8 @@ void check_memory(const scene::Scene& scene, const RunCost& cost) {
   const bool by_frames = 2 * cost.motion_bytes > cost.memory_bytes;
   throw InputError(scene::problem_at(
       scene, "output.most_memory_gb",
-      fmt::format("{:.3g} or more, as the run would take about {} of memory ({})",
-                  allowing_gb(cost.memory_bytes), size_text(cost.memory_bytes),
+      fmt::format("{}, as the run would take about {} of memory ({})",
+                  spare_text(cost.memory_bytes), size_text(cost.memory_bytes),
                   by_frames ? "time.start_s and time.end_s shorten it, --no-variants leaves its "
                               "variants out"
                             : fmt::format("for a mesh of {:.0f} nodes; a larger "
@@ -192,6 +272,16 @@ void check_memory(const scene::Scene& scene, const RunCost& cost) {
 void check_cost(const scene::Scene& scene, const RunCost& cost, const std::vector<Note>& notes) {
   check_disk(scene, cost, notes);
   check_memory(scene, cost);
+}
+
+int vtu_every_within_bound(const scene::Scene& scene, const RunCost& cost) {
+  const double bound = 1e9 * scene.output.most_gb / kSpare;
+  if (cost.disk_bytes <= bound) return 1;
+  const double others = cost.disk_bytes - cost.frames_bytes;
+  if (cost.frames_bytes <= 0 || others >= bound) return 1;
+  constexpr double most = 10000;  // the bound of output.vtu_every
+  return int(
+      std::min(most, std::ceil(scene.output.vtu_every * cost.frames_bytes / (bound - others))));
 }
 
 std::optional<RunCost> checked_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,

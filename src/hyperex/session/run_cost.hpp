@@ -20,15 +20,19 @@ struct RunCost {
   double disk_bytes = 0, frames_bytes = 0;    ///< in all; of them frames/, for ParaView
   double memory_bytes = 0, motion_bytes = 0;  ///< in all; of them the motion of all faces
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
-  /// unknown, as at finite strain or with contact.
+  /// unknown, as at finite strain. Without contact.
   double seconds = 0, variants_seconds = 0;
-  double budget_seconds = 0;  ///< part of output.error_budget in `seconds`; 0: none
+  double budget_seconds = 0;   ///< part of output.error_budget in `seconds`; 0: none
+  double contact_seconds = 0;  ///< besides, where something touches in every frame; 0: no contact
 };
 
 /// `volume`: of the face, once it is meshed; null: its size is estimated from the area of the scan.
 /// Nothing where the length of the run is unknown.
 std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,
                                      const tissue::VolumeMesh* volume = nullptr);
+
+/// The same of a new scene, without tracking a face. Throws InputError where its files are wrong.
+std::optional<RunCost> cost_before_tracking(const scene::Scene& scene);
 
 /// "a run: 1201 frames, from 0 s to 40 s of the recording; about 0.97 GB on disk (frames/, for
 /// ParaView: 0.94 GB), ..."
@@ -39,6 +43,10 @@ std::string sentence_of(const RunCost& cost);
 /// message is about that.
 void check_cost(const scene::Scene& scene, const RunCost& cost,
                 const std::vector<Note>& notes = {});
+
+/// The least output.vtu_every with which the run stays below output.most_gb with a fifth to spare.
+/// 1 where that is so without it, and where frames for ParaView are not what takes the space.
+int vtu_every_within_bound(const scene::Scene& scene, const RunCost& cost);
 
 /// expected_cost(), after check_cost().
 std::optional<RunCost> checked_cost(const scene::Scene& scene, const Inputs& inputs, Extent extent,

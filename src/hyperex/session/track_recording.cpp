@@ -79,21 +79,6 @@ tracking::Tracking tracked(const scene::MotionOptions& options, capture::FrameSo
   }
 }
 
-/// By the number of frames and the median distance of the first ones; 0 where that is not known.
-double expected_length_s(const scene::MotionOptions& options) {
-  constexpr std::size_t most_read = 12;
-  const auto source = open_recording(options);
-  const std::optional<std::size_t> count = source->frame_count();
-  if (!count || *count < 2) return 0;
-  std::vector<double> times;
-  for (std::size_t k = 0; k < std::min(*count, most_read); ++k) {
-    const auto frame = source->next();
-    if (!frame) break;
-    if (frame->valid) times.push_back(frame->time_s);
-  }
-  return times.size() < 2 ? 0 : double(*count - 1) * median_step(times);
-}
-
 /// The face that a camera has recorded; with the tracked mesh where skin is to follow it.
 RecordedFace track_face(const scene::Scene& scene, Extent extent) {
   RecordedFace recorded;
@@ -123,9 +108,31 @@ RecordedFace track_face(const scene::Scene& scene, Extent extent) {
   return recorded;
 }
 
+void refuse_a_picture(const scene::Scene& scene) {
+  if (capture::source_kind(scene.motion.recording.string()) == capture::SourceKind::still)
+    throw InputError(
+        scene::problem_at(scene, "motion.recording",
+                          "a video or a depth camera's recording, as one picture has no motion"));
+}
+
 }  // namespace
 
+double expected_length_s(const scene::MotionOptions& options) {
+  constexpr std::size_t most_read = 12;
+  const auto source = open_recording(options);
+  const std::optional<std::size_t> count = source->frame_count();
+  if (!count || *count < 2) return 0;
+  std::vector<double> times;
+  for (std::size_t k = 0; k < std::min(*count, most_read); ++k) {
+    const auto frame = source->next();
+    if (!frame) break;
+    if (frame->valid) times.push_back(frame->time_s);
+  }
+  return times.size() < 2 ? 0 : double(*count - 1) * median_step(times);
+}
+
 motion::Motion track_recording(const scene::Scene& scene, Extent extent, Inputs& in) {
+  refuse_a_picture(scene);
   RecordedFace recorded = extent == Extent::quick
                               ? track_face(scene, extent)
                               : recorded_face(scene, [&] { return track_face(scene, extent); });

@@ -49,6 +49,16 @@ TEST(NewScene, NamesThePointsOfTheSkull) {
             nlohmann::json({"head_1", "a \"b\""}));
 }
 
+TEST(NewScene, OfALongRecordingWritesFewerFrames) {
+  const NewScene brief{"a.ply", "a.csv", "motion.arkit", "mm", "stated", {}, "a"};
+  EXPECT_FALSE(parse_toml(new_scene_text(brief)).root.contains("output"));
+  NewScene lengthy = brief;
+  lengthy.vtu_every = 3;
+  const std::string text = new_scene_text(lengthy);
+  EXPECT_EQ(parse_toml(text).root.at("output"), nlohmann::json({{"vtu_every", 3}}));
+  EXPECT_THAT(text, HasSubstr("# The recording is long: all frames for ParaView"));
+}
+
 TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
   std::string text =
       new_scene_text({"a.ply", "film.mp4", "motion.recording", "mm", "stated", {}, "a"});

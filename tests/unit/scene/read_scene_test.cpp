@@ -247,6 +247,12 @@ TEST(ReadScene, AVariantWithoutANameIsCalledAsItsPreset) {
                         "mean palsy_complete_R?"));
 }
 
+TEST(ReadScene, VariantsAreLeftOutByAnOptionAndNotByAKey) {
+  EXPECT_THAT(only_problem(smallest, {"variant=[]"}),
+              HasSubstr("variant = []: expected a key; variants stand in the scene file, and "
+                        "--no-variants of hyperex run and hyperex check leaves them out"));
+}
+
 TEST(ReadScene, KeysThatDependOnEachOther) {
   const std::string base = smallest;
   EXPECT_THAT(only_problem(base, {"region.measured=points"}),

@@ -81,6 +81,15 @@ TEST_F(InputNotes, TakeTwoTenthsOfAMillimetreForMotion) {
   EXPECT_THAT(warnings(), IsEmpty());
 }
 
+TEST_F(InputNotes, KnowARunThatOutlastsItsRecordingOfHalfASecond) {
+  EXPECT_THAT(notes({"time.end_s=1.45"}), Not(Contains(has_id("time.beyond_recording"))));
+  EXPECT_THAT(notes({"time.end_s=1.6"}),
+              Contains(AllOf(is_warning("time.beyond_recording"),
+                             says("time.end_s = 1.6 s is 1.1 s after the end of the recording"))));
+  EXPECT_THAT(notes({"time.end_s=1.6", "motion.time_scale=2"}),
+              Not(Contains(has_id("time.beyond_recording"))));
+}
+
 TEST_F(InputNotes, NameThePairThatIsExchanged) {
   for (const auto& [one, other] :
        {std::pair{"cheilion_L", "cheilion_R"}, {"ibug68_48", "ibug68_54"}}) {
