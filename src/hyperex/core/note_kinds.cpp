@@ -30,8 +30,8 @@ constexpr NoteKind kKinds[] = {
     "times are probably in milliseconds."),
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
-    "than 0.6 m/s, or by more than 6 mm in one reading while the points beside it stay. The "
-    "readings were left out and interpolated."),
+    "than 0.6 m/s. At 24 samples a second and more, 6 mm in one reading count while the points "
+    "beside it stay. The readings were left out and interpolated."),
   warning("recording.zeros", "motion.file",
     "Readings of (0, 0, 0) of a point that is never within 20 mm of there otherwise: some systems "
     "write a marker so that they do not see. They were taken as missing."),
