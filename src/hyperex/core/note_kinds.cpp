@@ -68,7 +68,6 @@ constexpr NoteKind kKinds[] = {
     "After a fit that wrong points do not pull, a point is more than 8 mm and four times the median "
     "from the scan's landmark of its name, and its neighbours are not. 30 mm hold for points that "
     "people place differently, and where fewer than 20 points are common."),
-    "20, or the scale is outside 0.8 to 1.25."),
   warning("time.beyond_recording", "time.end_s",
     "The run ends more than 1 s after the recording: the face is held as its last sample shows it."),
   warning("sides.exchanged_pair", "motion.file",
