@@ -12,7 +12,7 @@ class Environments : public ProgramTest {
  protected:
   void SetUp() override {
     ProgramTest::SetUp();
-    std::ofstream(folder_ / "in" / "scene.toml")
+    std::ofstream(in("scene.toml"))
         << "[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n"
            "[mesh]\nelement_size_mm = 12\nlayers = 1\n[time]\nend_s = 0.2\n"
            "[output]\nvtu = false\nglb = false\nreport = false\n";
@@ -22,10 +22,9 @@ class Environments : public ProgramTest {
   std::string motion_of(std::string around) {
     const std::string out = "out" + std::to_string(runs_++);
     around.replace(around.find("RUN"), 3, "\"$HYPEREX\" run scene.toml --out " + out);
-    EXPECT_EQ(shell("( " + around + " ) >log.txt 2>&1"), 0)
-        << around << '\n'
-        << read_file(folder_ / "in" / "log.txt");
-    return read_file(folder_ / "in" / out / "motion.csv");
+    EXPECT_EQ(shell("( " + around + " ) >log.txt 2>&1"), 0) << around << '\n'
+                                                            << read_file(in("log.txt"));
+    return read_file(in(out + "/motion.csv"));
   }
 
  private:
