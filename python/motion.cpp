@@ -17,6 +17,7 @@
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
 #include "refuse.hpp"
+#include "warn_user.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -88,25 +89,17 @@ simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landm
   return simulate::align(motion, landmarks, from_word<simulate::AlignmentMethod>("method", method));
 }
 
-/// Each as a UserWarning at the line of the caller.
-void warn_of(const std::vector<Note>& notes) {
-  const py::gil_scoped_acquire python;
-  for (const Note& note : notes)
-    if (PyErr_WarnEx(PyExc_UserWarning, note.text.c_str(), 1) != 0)
-      throw py::error_already_set();  // the user's filters turn warnings into errors
-}
-
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
                                  double max_gap_s, const Names& rigid_points, bool still_head,
                                  const std::string& method) {
   const motion::MendedMotion mended = motion::without_wild_samples(motion);
-  warn_of(session::reading_warnings(mended));
+  warn_user(session::reading_warnings(mended));
   motion::check_reach_beside_head(mended.motion);
   const Motion whole = filled(mended.motion, max_gap_s);
   const Motion steady =
       still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points);
   motion::check_reach(steady);
-  if (const auto far = session::far_points_warning(steady)) warn_of({*far});
+  if (const auto far = session::far_points_warning(steady)) warn_user({*far});
   return aligned(steady, landmarks, method);
 }
 

@@ -17,6 +17,7 @@
 #include "meshes.hpp"
 #include "obstacles.hpp"
 #include "performance.hpp"
+#include "warn_user.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -61,10 +62,11 @@ TissueValues completed(TissueValues values, std::size_t tets) {
 /// Issues a UserWarning, at the line that called run(), for what makes a result differ from what
 /// the caller expects. Python's filters decide how often; by default once a line.
 void warn_of_changes(const simulate::SimulationReport& report) {
+  std::vector<Note> changes;
   for (const Note& note : report.notes)
-    if ((note.id == "forces.found_anew" || note.id == "muscles.gain_hardly_used") &&
-        PyErr_WarnEx(PyExc_UserWarning, note.text.c_str(), 1) != 0)
-      throw py::error_already_set();  // the user's filters turn warnings into errors
+    if (note.id == "forces.found_anew" || note.id == "muscles.gain_hardly_used")
+      changes.push_back(note);
+  warn_user(changes);
 }
 
 class PythonSimulator {

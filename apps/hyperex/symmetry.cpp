@@ -110,7 +110,7 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
 }
 
 /// Says which points hold the head's pose, as the user did not name them.
-void tell_still_points(const std::vector<std::string>& names) {
+void report_still_points(const std::vector<std::string>& names) {
   if (!names.empty())
     std::cerr << fmt::format(
         "head pose: taken out by {}, which keep their distances from each other, as points of the "
@@ -134,7 +134,7 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
   try {
     const std::vector<std::string> still = motion::proposed_rigid_points(motion);
     motion::StabilisedMotion steady = motion::stabilise(motion, {.rigid_points = still});
-    tell_still_points(still);
+    report_still_points(still);
     return steady;
   } catch (const motion::OptionError& error) {
     std::cerr << "head pose is not taken out, and excursions contain it: "

@@ -34,7 +34,7 @@ constexpr NoteKind kKinds[] = {
     "beside it stay. The readings were left out and interpolated."),
   warning("recording.zeros", "motion.file",
     "Readings of (0, 0, 0) of a point that is never within 20 mm of there otherwise: some systems "
-    "write a marker so that they do not see. They were taken as missing."),
+    "write this for a marker that they do not see. They were taken as missing."),
   warning("recording.lone_samples", "motion.file",
     "A point jumps away by more than 20 mm and comes back in one reading while the points beside it "
     "stay, in a recording of less than 24 samples a second. The readings were kept."),

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/core/quantile.hpp"
 
 namespace hyperex::expression {
@@ -101,8 +102,8 @@ std::string first_of(std::vector<std::string> places) {
   constexpr std::size_t most_named = 3;
   const std::size_t all = places.size();
   places.resize(std::min(all, most_named));
-  return fmt::format("{}{}", fmt::join(places, "; "),
-                     all > most_named ? fmt::format("; and {} more", all - most_named) : "");
+  add_rest(places, all);
+  return fmt::format("{}", fmt::join(places, "; "));
 }
 
 }  // namespace

@@ -35,6 +35,11 @@ bool same_place(const std::string& a, const std::string& b) {
   return !b.empty() && other_name(a) == b;
 }
 
+std::optional<int> ibug_number_of_place(const std::string& name) {
+  const std::optional<int> own = ibug_number(name);
+  return own ? own : ibug_number(other_name(name));
+}
+
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name) {
   for (const std::string& either : {name, other_name(name)})
     if (const auto found = landmarks.find(either);

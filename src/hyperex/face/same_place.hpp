@@ -15,6 +15,10 @@ bool same_place(const std::string& a, const std::string& b);
 /// The other name of a landmark, such as ibug68_48 for cheilion_R; empty if it has none.
 std::string other_name(const std::string& name);
 
+/// The number of the iBUG point at this place: 48 for ibug68_48 and for cheilion_R; nothing where
+/// there is none.
+std::optional<int> ibug_number_of_place(const std::string& name);
+
 /// The position of a landmark under this name or under its other name; nothing if neither is given
 /// with finite coordinates.
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name);

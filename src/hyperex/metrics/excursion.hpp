@@ -76,7 +76,7 @@ struct PairExcursion {
   /// would equal the excursion of this side. NaN without a twin.
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
-  KnownNoise known;  ///< of what is not known, no floor contains anything
+  KnownNoise known;  ///< the floors contain only the noise that is known
 
   double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
   /// All floors together, as independent errors: the root of the sum of their squares.
@@ -86,8 +86,9 @@ struct PairExcursion {
   }
   /// Sets `undecided` by the floors that are known; without any it is false.
   void judge() { undecided = floor_mm() > 0 && !(std::abs(difference_mm()) >= floor_mm()); }
-  /// Whether a figure is decided. `below_floor`: `undecided`, `path_undecided` and so on. A figure
-  /// above its floors is not told from noise that is not known: then nothing.
+  /// Whether a figure is decided. `below_floor`: `undecided`, `path_undecided` and so on. False
+  /// below the floors, true above them. Nothing above them if some noise is not known, as the
+  /// figure may be that noise.
   std::optional<bool> decided(bool below_floor) const {
     if (below_floor) return false;
     return known.all() ? std::optional<bool>(true) : std::nullopt;

@@ -20,8 +20,9 @@ struct WildSample {
 struct MendedMotion {
   Motion motion;                 ///< wild readings interpolated; at the ends the nearest one held
   std::vector<WildSample> wild;  ///< in the order of time, then of the points
-  /// Readings of exactly (0, 0, 0) of a point that is elsewhere otherwise, off_m from there: so
-  /// some systems write a marker that they do not see. In `motion` they are missing.
+  /// Readings of exactly (0, 0, 0) of a point whose other readings are all at least off_m from
+  /// there: some systems write this for a marker that they do not see. In `motion` they are
+  /// missing.
   std::vector<WildSample> zeros;
   /// Readings that jump away and back alone in a slow recording, where a face could do so. Kept.
   std::vector<WildSample> lone;

@@ -103,7 +103,7 @@ std::string new_scene_text(const NewScene& of) {
     out += fmt::format(
         "\n[output]\n"
         "# The recording is long: all frames for ParaView would take more than output.most_gb.\n"
-        "vtu_every = {}  # of so many frames one is written\n",
+        "vtu_every = {}  # one frame of this many is written\n",
         of.vtu_every);
   out +=
       "\n[tissue]\n"

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/session/idle_keys.hpp"
 
 namespace hyperex::session {
 using simulate::DriveBy;
@@ -60,24 +61,6 @@ std::optional<Note> by_key_warning(const scene::Scene& scene) {
                   measured  ? " and region.measured = \"none\""
                   : several ? ", where they have no effect"
                             : ", where it has no effect"));
-}
-
-std::optional<Note> idle_region_warning(const scene::Scene& scene) {
-  const auto measures = [](const scene::Scene& one) {
-    return one.region.measured != simulate::Measured::none;
-  };
-  if (measures(scene) || std::ranges::any_of(scene.variants, [&](const scene::Variant& variant) {
-        return measures(variant.scene);
-      }))
-    return std::nullopt;
-  std::vector<std::string> idle;
-  for (const scene::Key& key : scene::keys())
-    if (key.only_where == simulate::RegionOptions::only_where && scene.origins.contains(key.name))
-      idle.push_back(key.name);
-  if (idle.empty()) return std::nullopt;
-  return make_warning(
-      "region.idle",
-      fmt::format("without effect, as region.measured is \"none\": {}", fmt::join(idle, ", ")));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 
@@ -51,12 +52,6 @@ double reach_m(const motion::Motion& motion, const FacePart& part) {
 constexpr double kMoves_m = 2e-3;
 constexpr std::size_t kMostNamed = 4;
 
-/// The number of an iBUG point, by either of its names.
-std::optional<int> number_of(const std::string& name) {
-  const auto own = face::ibug_number(name);
-  return own ? own : face::ibug_number(face::other_name(name));
-}
-
 bool is_of_a_part(int number) {
   return std::ranges::any_of(kParts, [number](const FacePart& part) {
     return part.first <= number && number <= part.last;
@@ -73,7 +68,7 @@ bool is_further(const motion::Motion& motion, const std::vector<std::string>& dr
   const std::string other = face::other_name(name);
   if (has(driven, name) || has(driven, other)) return false;
   const bool listed_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
-  const auto number = number_of(name);
+  const auto number = face::ibug_number_of_place(name);
   return !listed_as_other && !(number && is_of_a_part(*number));
 }
 
@@ -93,7 +88,7 @@ std::vector<std::string> further_points(const motion::Motion& motion,
     const bool of_tracked_mesh = (motion.triangles.array() == motion.index_of(name)).any();
     if (of_tracked_mesh || !is_further(motion, driven, name)) continue;
     if (const double far_m = reach_m(motion, name); far_m >= kMoves_m)
-      points.push_back({number_of(name).value_or(0) >= 48, far_m, name});
+      points.push_back({face::ibug_number_of_place(name).value_or(0) >= 48, far_m, name});
   }
   std::ranges::stable_sort(points, [](const Point& a, const Point& b) {
     return std::pair(a.of_lips, -a.far_m) < std::pair(b.of_lips, -b.far_m);
@@ -102,8 +97,7 @@ std::vector<std::string> further_points(const motion::Motion& motion,
   for (const Point& point : points)
     if (named.size() < kMostNamed)
       named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.far_m));
-  if (points.size() > named.size())
-    named.push_back(fmt::format("and {} more", points.size() - named.size()));
+  add_rest(named, points.size());
   return named;
 }
 

@@ -10,6 +10,7 @@
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/driven_points.hpp"
+#include "hyperex/session/idle_keys.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
 #include "hyperex/session/read_bones.hpp"

@@ -10,11 +10,12 @@
 #include <numeric>
 
 #include "hyperex/anatomy/lips.hpp"
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -29,14 +30,12 @@ constexpr std::size_t kNeighbours = 3;
 constexpr double kLeastSpreadOffLine = 0.05;
 constexpr double kExact_m = 1e-4;
 
-/// The points that both sides name.
-struct Matched {
-  std::vector<std::string> names;
-  Points recorded, scanned;
+/// The points that both sides name, and a fit of the recording's to the scan's.
+struct Matched : simulate::CommonPoints {
   Similarity scan_from_recording;
   Points residual;  // vectors from the landmarks
 
-  Eigen::Index size() const { return recorded.rows(); }
+  Eigen::Index size() const { return motion.rows(); }
   double distance_m(Eigen::Index i) const { return residual.row(i).norm(); }
   double median_m() const {
     std::vector<double> distances;
@@ -45,40 +44,23 @@ struct Matched {
   }
   void lay(const Similarity& fit) {
     scan_from_recording = fit;
-    residual = fit.apply(recorded) - scanned;
+    residual = fit.apply(motion) - scan;
   }
   double off_m(Eigen::Index i) const;
 };
 
-Matched matched(const motion::Motion& m, const io::Landmarks& landmarks) {
-  Matched out;
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < m.names.size(); ++i)
-    if (landmarks.contains(m.names[i])) {
-      rows.push_back(Eigen::Index(i));
-      out.names.push_back(m.names[i]);
-    }
-  out.recorded.resize(Eigen::Index(rows.size()), 3);
-  out.scanned.resize(Eigen::Index(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    out.recorded.row(Eigen::Index(i)) = m.positions.front().row(rows[i]);
-    out.scanned.row(Eigen::Index(i)) = landmarks.at(out.names[i]).transpose();
-  }
-  return out;
-}
-
 /// The fit to all points, or to all but one, whose median distance is least.
 void lay_without_the_worst(Matched& points) {
-  points.lay(fit_similarity(points.recorded, points.scanned));
+  points.lay(fit_similarity(points.motion, points.scan));
   Matched best = points;
   double least_m = best.median_m();
   for (Eigen::Index out = 0; out < points.size(); ++out) {
     std::vector<Eigen::Index> kept(std::size_t(points.size()));
     std::iota(kept.begin(), kept.end(), 0);
     kept.erase(kept.begin() + out);
-    const Points scanned = points.scanned(kept, Eigen::all);
-    if (spread_off_line(scanned) < kLeastSpreadOffLine) continue;
-    points.lay(fit_similarity(points.recorded(kept, Eigen::all), scanned));
+    const Points scan = points.scan(kept, Eigen::all);
+    if (spread_off_line(scan) < kLeastSpreadOffLine) continue;
+    points.lay(fit_similarity(points.motion(kept, Eigen::all), scan));
     if (const double here_m = points.median_m(); here_m < least_m) {
       least_m = here_m;
       best = points;
@@ -94,7 +76,7 @@ void lay_robustly(Matched& points) {
     const double cauchy_m = 2 * std::max(points.median_m(), kExact_m);
     const Eigen::VectorXd part = points.residual.rowwise().norm() / cauchy_m;
     const Eigen::VectorXd weights = (1 + part.array().square()).inverse();
-    points.lay(fit_similarity(points.recorded, points.scanned, weights));
+    points.lay(fit_similarity(points.motion, points.scan, weights));
   }
 }
 
@@ -109,7 +91,7 @@ double Matched::off_m(Eigen::Index i) const {
   const int lip = lip_of_either_name(names[std::size_t(i)]);
   for (Eigen::Index j = 0; j < size(); ++j)
     if (j != i && lip * lip_of_either_name(names[std::size_t(j)]) >= 0)
-      neighbours.emplace_back((scanned.row(j) - scanned.row(i)).norm(), j);
+      neighbours.emplace_back((scan.row(j) - scan.row(i)).norm(), j);
   const std::size_t near = std::min(kNeighbours, neighbours.size());
   if (near == 0) return distance_m(i);
   std::ranges::sort(neighbours);
@@ -125,9 +107,8 @@ double Matched::off_m(Eigen::Index i) const {
 /// Whether the place of a point differs between trackers, or by who sets it, by centimetres.
 bool is_vague(const std::string& name) {
   constexpr int chin_from = 6, chin_to = 10, outline_to = 16;
-  const auto own = face::ibug_number(name);
-  const auto number = own ? own : face::ibug_number(face::other_name(name));
-  if (number) return *number <= outline_to && (*number < chin_from || *number > chin_to);
+  if (const auto number = face::ibug_number_of_place(name))
+    return *number <= outline_to && (*number < chin_from || *number > chin_to);
   return face::canonical_face().landmarks.contains(name);
 }
 
@@ -139,8 +120,8 @@ bool is_exchanged(const Matched& points, Eigen::Index i, double within_m) {
   const Eigen::Index j = found - points.names.begin();
   if (found == points.names.end() || j == i) return false;
   const auto lies_at = [&](Eigen::Index one, Eigen::Index landmark) {
-    const Vec3 laid = (points.residual.row(one) + points.scanned.row(one)).transpose();
-    return (laid - points.scanned.row(landmark).transpose()).norm() < within_m;
+    const Vec3 laid = (points.residual.row(one) + points.scan.row(one)).transpose();
+    return (laid - points.scan.row(landmark).transpose()).norm() < within_m;
   };
   return lies_at(i, j) && lies_at(j, i);
 }
@@ -149,8 +130,8 @@ bool is_exchanged(const Matched& points, Eigen::Index i, double within_m) {
 
 MisplacedPoints misplaced_points(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
   MisplacedPoints out;
-  Matched points = matched(stabilised, landmarks);
-  if (points.size() < kFewestToCompare || spread_off_line(points.scanned) < kLeastSpreadOffLine)
+  Matched points{simulate::common_points(stabilised, landmarks), {}, {}};
+  if (points.size() < kFewestToCompare || spread_off_line(points.scan) < kLeastSpreadOffLine)
     return out;
   lay_robustly(points);
   const double usual_m = kOffOverMedian * points.median_m();
@@ -183,7 +164,7 @@ std::optional<Note> misplaced_warning(const MisplacedPoints& misplaced) {
       named.push_back(fmt::format("{} {}{:.1f} mm{}", point.name, named.empty() ? "lies " : "",
                                   1e3 * point.off_m,
                                   named.empty() ? " from the scan's landmark of that name" : ""));
-  if (count > named.size()) named.push_back(fmt::format("and {} more", count - named.size()));
+  add_rest(named, count);
   const bool one = count == 1;
   return make_warning(
       "recording.point_off",

@@ -12,6 +12,7 @@
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -27,19 +28,6 @@ constexpr std::size_t kManyCommon = 20;
 // borders 10 mm are reached, but these are not part of the face (38 mm from the nearest landmark
 // for subject A, 27 mm for humface).
 constexpr double kSkinOff_mm = 5, kOfTheFace_m = 0.025;
-
-/// Rows of the points that both sides name, measured in the first sample.
-std::pair<Points, Points> common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
-  std::vector<Eigen::Index> rows;
-  for (std::size_t i = 0; i < m.names.size(); ++i)
-    if (landmarks.contains(m.names[i])) rows.push_back(Eigen::Index(i));
-  Points recorded(Eigen::Index(rows.size()), 3), scanned = recorded;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    recorded.row(Eigen::Index(i)) = m.positions.front().row(rows[i]);
-    scanned.row(Eigen::Index(i)) = landmarks.at(m.names[std::size_t(rows[i])]).transpose();
-  }
-  return {recorded, scanned};
-}
 
 std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, const Vec3& p) {
   std::pair<std::string, double> nearest{"", std::numeric_limits<double>::infinity()};
@@ -79,7 +67,7 @@ FaceAtRest average_face() {
 }
 
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
-  auto [recorded, scanned] = common_points(stabilised, face.landmarks);
+  auto [names, recorded, scanned] = simulate::common_points(stabilised, face.landmarks);
   if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return;
   const double as_is = misfit_m(recorded, scanned);
   recorded.col(0) *= -1;
@@ -160,23 +148,6 @@ std::optional<Note> coarse_warning(const motion::Motion& m) {
                   step_s, kLongestSmoothStep_s));
 }
 
-std::optional<Note> idle_law_warning(const scene::Scene& scene) {
-  const auto finite = [](const scene::Scene& s) {
-    return s.model.strain == simulate::Strain::finite;
-  };
-  if (finite(scene)) return std::nullopt;
-  for (const scene::Variant& variant : scene.variants)
-    if (finite(variant.scene)) return std::nullopt;
-  std::vector<std::string> idle;
-  for (const scene::Key& key : scene::keys())
-    if (key.only_where == fem::Hyperelastic::only_where && scene.origins.contains(key.name))
-      idle.push_back(key.name);
-  if (idle.empty()) return std::nullopt;
-  return make_warning(
-      "law.idle",
-      fmt::format("without effect, as tissue.strain is not \"finite\": {}", fmt::join(idle, ", ")));
-}
-
 std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;
@@ -195,7 +166,7 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
 }
 
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
-  const auto [recorded, scanned] = common_points(stabilised, face.landmarks);
+  const auto [names, recorded, scanned] = simulate::common_points(stabilised, face.landmarks);
   if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return std::nullopt;
   const Similarity recording_from_face = fit_similarity(scanned, recorded);
   const auto of_recording = [&](const std::string& name) -> Vec3 {

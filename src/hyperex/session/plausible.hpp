@@ -58,10 +58,6 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised);
 /// pair is exchanged, or where at least half of the pairs are (check_sides reports that).
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
-/// `law.idle`: names given keys that only finite strain uses, where neither the scene nor a variant
-/// has it.
-std::optional<Note> idle_law_warning(const scene::Scene& scene);
-
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
 /// its second frame.
 void check_length(const scene::Scene& scene, const motion::Motion& m);

@@ -10,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
@@ -126,8 +127,7 @@ std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion
   for (const motion::UnsteadyPoint& point : moving)
     if (named.size() < most_named)
       named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.change_m));
-  if (moving.size() > named.size())
-    named.push_back(fmt::format("and {} more", moving.size() - named.size()));
+  add_rest(named, moving.size());
   return make_warning(
       "head.points_not_rigid",
       fmt::format("points of motion.rigid_points do not keep their distances from each other, as "

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "hyperex/face/ibug.hpp"
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/same_place.hpp"
 
 namespace hyperex::session {
@@ -23,17 +23,15 @@ std::string first_readings(const motion::Motion& m,
       named.push_back(fmt::format("{}: {:.4g} mm",
                                   motion::place_of(m, reading.point, reading.sample),
                                   1e3 * reading.off_m));
-  const std::size_t more = readings.size() - named.size();
-  return fmt::format("{}{}", fmt::join(named, "; "),
-                     more > 0 ? fmt::format("; and {} more", more) : "");
+  add_rest(named, readings.size());
+  return fmt::format("{}", fmt::join(named, "; "));
 }
 
 /// The farthest that a point goes, m. The mandible opens by 40 to 60 mm, a corner of the mouth
 /// goes 10 to 20 mm in a smile and as much downwards with the jaw. Points whose part is not known
 /// have the bound of the mandible.
 double reach_m(const std::string& point) {
-  const auto own = face::ibug_number(point);
-  const auto k = own ? own : face::ibug_number(face::other_name(point));
+  const auto k = face::ibug_number_of_place(point);
   constexpr double mandible = 0.075, corner = 0.038, upper_lip = 0.03, brow = 0.025, nose = 0.02;
   if (!k || (*k >= 3 && *k <= 13)) return mandible;
   if (*k <= 16) return upper_lip;  // before the ears, beside the condyles

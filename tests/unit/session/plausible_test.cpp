@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/session/idle_keys.hpp"
 #include "support/note_matchers.hpp"
 
 namespace hyperex::session {

@@ -8,32 +8,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::simulate {
 namespace {
-
-/// Landmark positions of a motion's first sample, as far as they are landmarks of the scan.
-struct Pairs {
-  std::vector<std::string> names;
-  Points motion, scan;
-};
-
-Pairs common_points(const motion::Motion& m, const io::Landmarks& landmarks) {
-  Pairs pairs;
-  std::vector<int> rows;
-  for (std::size_t i = 0; i < m.names.size(); ++i)
-    if (landmarks.count(m.names[i])) {
-      pairs.names.push_back(m.names[i]);
-      rows.push_back(static_cast<int>(i));
-    }
-  pairs.motion.resize(rows.size(), 3);
-  pairs.scan.resize(rows.size(), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    pairs.motion.row(i) = m.positions.front().row(rows[i]);
-    pairs.scan.row(i) = landmarks.at(pairs.names[i]).transpose();
-  }
-  return pairs;
-}
 
 /// Width, upper and lower height about the nose apex: the face-part dimensions of [5.1-5.4].
 struct FaceParts {
@@ -80,7 +58,7 @@ void align_by_parts(const motion::Motion& in, const io::Landmarks& landmarks, Al
 
 AlignedMotion align(const motion::Motion& stabilised, const io::Landmarks& landmarks,
                     AlignmentMethod method) {
-  const Pairs pairs = common_points(stabilised, landmarks);
+  const CommonPoints pairs = common_points(stabilised, landmarks);
   if (pairs.names.size() < 3 || spread_off_line(pairs.scan) < 0.05)
     throw InputError(
         stabilised.source,
