@@ -20,6 +20,7 @@
 #include <vector>
 
 #include "hyperex/core/loaded_symbol.hpp"
+#include "hyperex/core/size_text.hpp"
 
 namespace hyperex {
 namespace {
@@ -42,8 +43,9 @@ void require_memory(std::size_t bytes) {
   void* const mapped = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE,
                               MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
   if (mapped == MAP_FAILED)
-    throw std::runtime_error(fmt::format(
-        "there is not enough memory: {} MiB may not be taken (see ulimit -v)", bytes >> 20));
+    throw std::runtime_error(
+        fmt::format("there is not enough memory: {} may not be taken (see ulimit -v)",
+                    size_text(double(bytes))));
   ::munmap(mapped, bytes);
 }
 

@@ -13,6 +13,7 @@
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/run_together.hpp"
+#include "hyperex/core/size_text.hpp"
 #include "hyperex/ct/iso_surface.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/geometry/thin_mesh.hpp"
@@ -163,10 +164,10 @@ void require_memory(const Volume& volume, const std::string& source) {
   const double needed = kBytesOfValue * double(volume.count()) + kBytesBesides,
                available = available_memory_bytes();
   if (needed > available)
-    throw std::runtime_error(
-        fmt::format("{}: a volume of {:.0f} million values takes about {:.0f} MB of memory and "
-                    "{:.0f} MB are available; a part of it, or a coarser one, takes less",
-                    source, 1e-6 * double(volume.count()), 1e-6 * needed, 1e-6 * available));
+    throw std::runtime_error(fmt::format(
+        "{}: a volume of {:.0f} million values takes about {} of memory and {} are "
+        "available; a part of it, or a coarser one, takes less",
+        source, 1e-6 * double(volume.count()), size_text(needed), size_text(available)));
 }
 
 }  // namespace

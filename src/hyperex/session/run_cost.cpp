@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/size_text.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/read_scan.hpp"
@@ -132,12 +133,6 @@ void add_seconds(const scene::Scene& scene, const MeshSize& mesh, const RunParts
   if (scene.contact.any())
     cost.contact_seconds = kContactFrameNodeSeconds * cost.frames * mesh.nodes *
                            (1 + cost.variants) * (output.error_budget ? 1 + kBudgetRuns : 1);
-}
-
-std::string size_text(double bytes) {
-  if (bytes < 1e8) return fmt::format("{:.0f} MB", std::max(1.0, bytes / 1e6));
-  return bytes < 1e10 ? fmt::format("{:.2f} GB", bytes / 1e9)
-                      : fmt::format("{:.0f} GB", bytes / 1e9);
 }
 
 std::string time_text(double seconds) {

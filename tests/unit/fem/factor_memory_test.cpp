@@ -28,8 +28,10 @@ TEST(FactorMemory, RefusesAFactorThatDoesNotFitWithTheFigures) {
   EXPECT_EQ(refusal(small, kGib), "");
   EXPECT_EQ(refusal(large, 64 * kGib), "");
   EXPECT_EQ(refusal(large, 9 * kGib),
-            "test: the factor of the matrix takes 13.5 GiB of memory and 9.0 GiB are available; a "
+            "test: the factor of the matrix takes 14 GB of memory and 9.66 GB are available; a "
             "coarser mesh takes less");
+  // Where next to nothing is left, that is said, not "0.0 GB".
+  EXPECT_THAT(refusal(large, 4e7), testing::HasSubstr(" and 40 MB are available"));
   // The limit itself.
   const double needed = factor_bytes(small) / kFactorShare;
   EXPECT_EQ(refusal(small, 1.001 * needed), "");

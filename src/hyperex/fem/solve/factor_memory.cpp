@@ -5,13 +5,9 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/memory.hpp"
+#include "hyperex/core/size_text.hpp"
 
 namespace hyperex::fem {
-namespace {
-
-constexpr double kGib = 1ULL << 30U;
-
-}  // namespace
 
 double factor_bytes(const FactorForecast& forecast) {
   return kStoredShare * forecast.entries * sizeof(double) * (1 + kStackShare) +
@@ -26,10 +22,11 @@ void check_factor_fits(const FactorForecast& forecast, double available_bytes,
                     "are possible; a coarser mesh has fewer",
                     purpose, stored, kMostFactorEntries));
   if (const double bytes = factor_bytes(forecast); bytes > kFactorShare * available_bytes)
-    throw NumericalError(fmt::format(
-        "{}: the factor of the matrix takes {:.1f} GiB of memory and {:.1f} GiB are available; a "
-        "coarser mesh takes less",
-        purpose, bytes / kGib, available_bytes / kGib));
+    throw NumericalError(
+        fmt::format("{}: the factor of the matrix takes {} of memory and {} are available; a "
+                    "coarser mesh takes "
+                    "less",
+                    purpose, size_text(bytes), size_text(available_bytes)));
 }
 
 double available_memory_bytes() {
