@@ -83,10 +83,20 @@ void SceneReader::check_drive() {
     complain_given("region.measured", "\"none\", as drive.by is not \"displacement\"");
 }
 
+void SceneReader::check_bones() {
+  for (std::size_t i = 0; i < scene.surgery.bones.size(); ++i) {
+    const simulate::BoneMove& move = scene.surgery.bones[i];
+    if (const std::string expected = simulate::expected_cut(move); !expected.empty())
+      complain_part("surgery.bone", fmt::format("[{}].cut", i), std::string(word_of(move.cut)),
+                    expected);
+  }
+}
+
 void SceneReader::check_together() {
   check_gains();
   check_strain();
   check_drive();
+  check_bones();
   if (scene.region.measured == simulate::Measured::points && scene.region.measured_points.empty())
     complain_given("region.measured_points", "one or more names, as region.measured is \"points\"");
   if (scene.mesh.thickness_m != 0 && !scene.mesh.depths.empty())

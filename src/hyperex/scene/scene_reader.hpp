@@ -65,6 +65,8 @@ class SceneReader {
   void check_strain();
   /// Checks for options that what drives the face does not support.
   void check_drive();
+  /// Checks that each segment of bone is cut as its part can be.
+  void check_bones();
   muscles::MuscleTable muscles_of_scene();
   Origin in_file(const std::string& name) const;
 

@@ -87,15 +87,9 @@ void check_surgery(const SimulationOptions& o, std::vector<InputProblem>& proble
     problems.push_back(wrong("tissue.region", "volume that is added", kForcesMustDrive));
   for (std::size_t i = 0; i < o.surgery.bones.size(); ++i) {
     const BoneMove& move = o.surgery.bones[i];
-    const BoneCut usual = usual_cut(move.part);
-    const bool chin = move.part == BonePart::chin || move.part == BonePart::maxilla;
-    const bool fits =
-        move.cut == BoneCut::standard || move.cut == usual || (move.cut == BoneCut::whole && !chin);
-    if (!fits)
-      problems.push_back(wrong(
-          fmt::format("surgery.bone[{}].cut", i).c_str(), std::string(word_of(move.cut)),
-          fmt::format("standard or {}{} for the {}", word_of(usual),
-                      chin || usual == BoneCut::whole ? "" : ", or whole,", word_of(move.part))));
+    if (const std::string expected = expected_cut(move); !expected.empty())
+      problems.push_back(wrong(fmt::format("surgery.bone[{}].cut", i).c_str(),
+                               std::string(word_of(move.cut)), expected));
   }
 }
 
@@ -113,6 +107,17 @@ BoneCut usual_cut(BonePart part) {
       break;
   }
   return BoneCut::whole;
+}
+
+std::string expected_cut(const BoneMove& move) {
+  const BoneCut usual = usual_cut(move.part);
+  const bool a_part_of_a_bone = move.part == BonePart::chin || move.part == BonePart::maxilla;
+  if (move.cut == BoneCut::standard || move.cut == usual ||
+      (move.cut == BoneCut::whole && !a_part_of_a_bone))
+    return "";
+  return fmt::format("standard or {}{} for the {}", word_of(usual),
+                     a_part_of_a_bone || usual == BoneCut::whole ? "" : ", or whole,",
+                     word_of(move.part));
 }
 
 void check(const SimulationOptions& o) {

@@ -554,6 +554,9 @@ struct SimulationOptions {
 /// The cut that BoneCut::standard means.
 BoneCut usual_cut(BonePart part);
 
+/// In words, the cuts that the part of `move` may have; empty where its cut is one of them.
+std::string expected_cut(const BoneMove& move);
+
 /// Throws InputError naming each option that is out of its bounds, and each conflict.
 void check(const SimulationOptions& options);
 

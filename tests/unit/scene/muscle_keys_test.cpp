@@ -292,6 +292,24 @@ TEST(MuscleKeys, MovedBonesAndAddedVolumeNeedForces) {
                {"drive.by=displacement"}));
 }
 
+TEST(MuscleKeys, ABoneIsCutAsItsPartCanBe) {
+  const auto with = [](const std::string& part, const std::string& cut) {
+    return smallest + std::string("[surgery]\nbone = [{ part = \"chin\" }, { part = \"") + part +
+           "\", cut = \"" + cut + "\" }]\n";
+  };
+  EXPECT_EQ(only_muscle_problem(with("maxilla", "bsso")),
+            "scene.toml:6: surgery.bone[1].cut = \"bsso\": expected standard or le_fort_1 for the "
+            "maxilla");
+  EXPECT_THAT(only_muscle_problem(with("mandible", "le_fort_1")),
+              HasSubstr("expected standard or bsso, or whole, for the mandible"));
+  EXPECT_THAT(
+      only_muscle_problem(smallest + std::string("[[variant]]\nname = \"v\"\nbone = [{ part "
+                                                 "= \"chin\", cut = \"whole\" }]\n")),
+      HasSubstr("scene.toml:7: variant[0].surgery.bone[0].cut"));
+  for (const char* cut : {"standard", "whole", "bsso"})
+    EXPECT_NO_THROW(scene_of(with("mandible", cut))) << cut;
+}
+
 TEST(MuscleKeys, ARegionThatIsMeasuredIsRefused) {
   for (const char* by : {"muscles", "reactions"}) {
     const std::string drive = std::string("drive.by=") + by;
