@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -21,8 +22,9 @@ void add_check(CLI::App& program) {
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       program.add_subcommand("check",
-                             "Check a scene and the files it names, and report every problem. "
-                             "Nothing is tracked or simulated; what was not checked is listed");
+                             "Check a scene and the files it names, and report every problem. The "
+                             "tissue is meshed, nothing is tracked or simulated; what was not "
+                             "checked is listed");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
@@ -34,6 +36,7 @@ void add_check(CLI::App& program) {
     std::string cost;
     scene::Scene scene = scene::read_scene(options->scene, options->overrides);
     if (options->no_variants) scene.variants.clear();
+    take_library_memory();
     const std::vector<Note> found = session::check(scene, &cost);
     const std::vector<std::string> warnings = texts_of(found, Severity::warning);
     for (const auto& note : texts_of(found, Severity::note)) std::cout << printable(note) << '\n';

@@ -166,7 +166,10 @@ constexpr NoteKind kKinds[] = {
   note("tissue.values_averaged", "tissue.per_vertex",
     "Several vertices of a file with different values lie at one vertex of the scan."),
   note("tissue.regions_unchecked", "tissue.region",
-    "`hyperex check` does not check where the regions of the tissue lie."),
+    "Without landmarks `hyperex check` does not check where the regions of the tissue lie."),
+  note("mesh.unchecked", "mesh.element_size_mm",
+    "`hyperex check` makes no mesh of more than 40,000 nodes: it does not check what a run finds on "
+    "it."),
   note("support.none", "support.border",
     "Nothing holds the tissue but the driven points."),
   note("drive.chosen", "drive.by", "What drives the face, and why."),

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <utility>
 
 #include "hyperex/core/progress.hpp"
@@ -8,25 +7,25 @@
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/run_cost.hpp"
+#include "hyperex/session/try_face.hpp"
 
 namespace hyperex::session {
+namespace {
 
-std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
+Inputs inputs_of(const scene::Scene& scene) {
   Progress progress("reading scan and recording", 0);
-  Inputs inputs = read_inputs(scene, Extent::quick);
+  return read_inputs(scene, Extent::quick);
+}
+
+}  // namespace
+
+std::vector<Note> check(const scene::Scene& scene, std::string* cost, CheckDepth depth) {
+  Inputs inputs = inputs_of(scene);
   const auto expected = checked_cost(scene, inputs, Extent::quick);
   if (cost && expected) *cost = sentence_of(*expected);
-  std::vector<Note> notes = std::move(inputs.notes);
+  std::vector<Note> notes = inputs.notes;
   append(notes, drive_warnings(scene));
-  const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
-  if (has_regions(scene) ||
-      std::any_of(scene.variants.begin(), scene.variants.end(),
-                  [&](const scene::Variant& variant) { return has_regions(variant.scene); }))
-    notes.push_back(make_note(
-        "tissue.regions_unchecked",
-        "not checked: whether the regions of the tissue lie on this scan and which values their "
-        "factors lead to",
-        "tissue.region"));
+  if (depth == CheckDepth::face) append(notes, try_face(scene, std::move(inputs)));
   return notes;
 }
 

@@ -10,11 +10,11 @@
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/session/driven_points.hpp"
+#include "hyperex/session/face_options.hpp"
 #include "hyperex/session/face_session_impl.hpp"
 #include "hyperex/session/kept_order.hpp"
 #include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/same_face.hpp"
-#include "hyperex/session/simulation_options.hpp"
 #include "hyperex/session/teeth.hpp"
 
 namespace hyperex::session {
@@ -88,66 +88,43 @@ void FaceSession::Impl::mesh() {
   report(face.mesh->notes);
 }
 
-simulate::SimulationOptions FaceSession::Impl::options_of(
-    const scene::Scene& of, const Inputs& its_inputs,
-    const std::optional<tissue::TissueField>& its_field) const {
-  simulate::SimulationOptions options = simulation_options(of, its_inputs);
-  if (its_field) {
-    options.tissue.element = its_field->element;
-    options.tissue.volume_ratio = its_field->volume_ratio;
-  }
-  return options;
-}
-
 /// Everything that may throw comes before anything is changed.
 void FaceSession::Impl::take(scene::Scene next) {
   DriveChoice choice = drive_choice(next);
   next.drive.by = choice.by;
   std::vector<std::string> driven_before =
       std::exchange(inputs.driven, driven_points(next, inputs.motion.motion));
-  std::optional<tissue::TissueField> next_field;
-  std::vector<VariantRun> next_runs;
-  simulate::SimulationOptions options;
-  std::vector<simulate::SimulationOptions> options_of_runs;
+  FaceOptions now;
   bool same_base = false;
   try {
-    next_field = fields->of(next);
-    next_runs = prepare_variants(next, inputs, *fields);
-    options = options_of(next, inputs, next_field);
-    check(options);
-    for (const VariantRun& run : next_runs) {
-      options_of_runs.push_back(options_of(run.scene, run.inputs, run.field));
-      check(options_of_runs.back());
-    }
-    same_base = simulator && simulator->options() == options;
+    now = face_options(next, inputs, *fields);
+    same_base = simulator && simulator->options() == now.base;
     if (!simulator)
-      simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, options);
+      simulator.emplace(face.mesh, inputs.landmarks, inputs.motion, now.base);
     else if (!same_base)
-      simulator->set_options(options);
+      simulator->set_options(now.base);
   } catch (...) {
     inputs.driven = std::move(driven_before);
     throw;
   }
   drive = std::move(choice);
   scene = std::move(next);
-  field = std::move(next_field);
+  field = std::move(now.field);
   if (!same_base) next_variant.reset();
   stale = stale || !same_base;
-  std::vector<VariantRun> before = std::exchange(runs, std::move(next_runs));
-  keep_variants(std::move(before), options_of_runs, same_base);
+  std::vector<VariantRun> before = std::exchange(runs, std::move(now.runs));
+  keep_variants(std::move(before), same_base);
 }
 
 /// Keeps the results of variants of the same name, as far as they are still valid.
-void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
-                                      const std::vector<simulate::SimulationOptions>& options,
-                                      bool same_base) {
+void FaceSession::Impl::keep_variants(std::vector<VariantRun> before, bool same_base) {
   std::vector<VariantState> old = std::exchange(states, std::vector<VariantState>(runs.size()));
   for (std::size_t i = 0; i < runs.size() && same_base; ++i) {
     std::size_t known = 0;
     while (known < before.size() && before[known].scene.title != runs[i].scene.title) ++known;
     if (known == before.size()) continue;
     VariantState& now = states[i];
-    const bool same = before[known].options == options[i];
+    const bool same = before[known].options == runs[i].options;
     now.simulator = std::exchange(old[known].simulator, std::nullopt);
     now.stale = old[known].stale || !same;
     now.has_bands = !now.stale && old[known].has_bands;
@@ -157,12 +134,11 @@ void FaceSession::Impl::keep_variants(std::vector<VariantRun> before,
     }
     if (same || !now.simulator) continue;
     try {
-      now.simulator->set_options(options[i]);
+      now.simulator->set_options(runs[i].options);
     } catch (const InputError&) {
       now.simulator.reset();  // a run will make another, or say why it cannot
     }
   }
-  for (std::size_t i = 0; i < runs.size(); ++i) runs[i].options = options[i];
   std::erase_if(variant_notes, [&](const Note& note) {
     return std::none_of(runs.begin(), runs.end(),
                         [&](const VariantRun& run) { return run.scene.title == note.variant; });
@@ -241,7 +217,7 @@ std::size_t FaceSession::faces() const {
   return 1 + impl_->runs.size();
 }
 simulate::SimulationOptions FaceSession::options(std::size_t face) const {
-  return face == 0 ? impl_->options_of(impl_->scene, impl_->inputs, impl_->field)
+  return face == 0 ? options_with_field(impl_->scene, impl_->inputs, impl_->field)
                    : impl_->runs.at(face - 1).options;
 }
 simulate::Simulator FaceSession::simulator() const {
@@ -270,7 +246,7 @@ StageSeconds FaceSession::seconds() const {
 }
 
 simulate::TissueValues FaceSession::tissue_of(const scene::Scene& scene) {
-  return impl_->options_of(scene, impl_->inputs, impl_->fields->of(scene)).tissue;
+  return options_with_field(scene, impl_->inputs, impl_->fields->of(scene)).tissue;
 }
 
 Eigen::VectorXd FaceSession::region_shares(const scene::Scene& scene, std::size_t region) {

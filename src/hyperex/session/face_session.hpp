@@ -196,10 +196,18 @@ class FaceSession {
   std::unique_ptr<Impl> impl_;
 };
 
+/// How far check() goes.
+enum class CheckDepth {
+  inputs,  ///< files, names, units, landmarks, the cost: a fraction of a second
+  face     ///< besides, all that a run does before it assembles matrices (try_face.hpp): about 1 s
+};
+
 /// Reads the files of a scene, those that take long only in part, and simulates nothing. Returns
 /// notes on what is assumed, is doubtful or was not checked. Throws InputError with every problem
-/// found. `cost`: set to the expected cost of a run, a sentence; empty where it is unknown.
-std::vector<Note> check(const scene::Scene& scene, std::string* cost = nullptr);
+/// of the inputs, or with the first one that a run finds after it has read them. `cost`: set to the
+/// expected cost of a run, a sentence; empty where it is unknown.
+std::vector<Note> check(const scene::Scene& scene, std::string* cost = nullptr,
+                        CheckDepth depth = CheckDepth::face);
 
 }  // namespace hyperex::session
 

@@ -73,13 +73,10 @@ struct FaceSession::Impl {
   void take_source(SceneSource next);
   void set_obstacles();
   std::size_t changed_face() const;
-  void keep_variants(std::vector<VariantRun> before,
-                     const std::vector<simulate::SimulationOptions>& options, bool same_base);
+  void keep_variants(std::vector<VariantRun> before, bool same_base);
   void begin_search();
   void finish_search();
 
-  simulate::SimulationOptions options_of(const scene::Scene& of, const Inputs& its_inputs,
-                                         const std::optional<tissue::TissueField>& its_field) const;
   simulate::Simulator& simulator_of(std::size_t number);
 
   void run_base(const simulate::RunCallbacks& callbacks);

@@ -92,8 +92,8 @@ void check_unaligned(const scene::Scene& scene,
   in.notes.push_back(make_note(
       "landmarks.not_searched",
       "the scene names no landmarks, so a run looks for them on the scan, as hyperex landmarks "
-      "does; not checked: whether they are found, how the recording fits them, and the names of "
-      "points and landmarks"));
+      "does; not checked: whether they are found, how the recording fits them, the names of points "
+      "and landmarks, and the mesh"));
   if (steady) check_without_landmarks(scene, steady->motion, in);
   note_missing_support(scene, in);
 }

@@ -33,8 +33,8 @@ class Sentences {
   std::string text_;
 };
 
-/// The options on which session::check() depends: not the stiffness of tissue and support, the
-/// solver or the outputs.
+/// The options on which a check of the inputs (session::CheckDepth) depends: not the stiffness of
+/// tissue and support, the solver or the outputs.
 std::string looked_at(const scene::Scene& scene) {
   json options = scene::options_json(scene);
   for (const char* section : {"solver", "time", "output", "title"}) options.erase(section);
@@ -88,7 +88,7 @@ void check_inputs(const Study& study, const std::vector<std::size_t>& cases, con
     const scene::Scene scene = scene::read_scene_with(study.scene, study.cases[i].overrides);
     if (seen.insert(looked_at(scene)).second) {
       try {
-        session::check(scene);
+        session::check(scene, nullptr, session::CheckDepth::inputs);
       } catch (const InputError& error) {
         wrong.add(error.what());
       }

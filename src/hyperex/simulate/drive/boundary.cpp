@@ -48,20 +48,18 @@ void add_measured(const MeasuredRegion& region, DrivenSkin& driven, Eigen::Index
 
 }  // namespace
 
-DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
-                       const AlignedMotion& motion, const MeasuredRegion& region,
-                       const DriveOptions& drive) {
-  DrivenSkin driven;
-  std::vector<DrivenPoint> points;
+ChosenPoints chosen_points(const io::Landmarks& landmarks, const AlignedMotion& motion,
+                           const DriveOptions& drive) {
+  ChosenPoints chosen;
   const std::vector<std::string> names = drive.names_in(motion.motion);
   for (const std::string& name : names) {
     const int row = motion.motion.index_of(name);
     if (row < 0)
       throw InputError(motion.motion.source,
                        fmt::format("has no point {}, which is to be driven", name));
-    if (std::count(driven.rows.begin(), driven.rows.end(), row)) continue;
-    driven.rows.push_back(row);
-    points.push_back({name, motion.rest.row(row).transpose()});
+    if (std::count(chosen.rows.begin(), chosen.rows.end(), row)) continue;
+    chosen.rows.push_back(row);
+    chosen.points.push_back({name, motion.rest.row(row).transpose()});
   }
   for (const std::string& name : drive.still_points) {
     const auto it = landmarks.find(name);
@@ -69,8 +67,17 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
       throw InputError(
           motion.motion.source,
           fmt::format("{}, which is to be held still, is no landmark of the scan", name));
-    if (!std::count(names.begin(), names.end(), name)) points.push_back({name, it->second});
+    if (!std::count(names.begin(), names.end(), name)) chosen.points.push_back({name, it->second});
   }
+  return chosen;
+}
+
+DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                       const AlignedMotion& motion, const MeasuredRegion& region,
+                       const DriveOptions& drive) {
+  const auto [points, rows] = chosen_points(landmarks, motion, drive);
+  DrivenSkin driven;
+  driven.rows = rows;
   const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(points, still_places(points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
@@ -106,6 +113,17 @@ std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& d
   return rows;
 }
 
+std::vector<int> needed_jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
+                                 const SupportOptions& support) {
+  std::vector<int> rows = jaw_rows(motion, driven, support);
+  if (rows.empty() && support.mandible == Mandible::follow)
+    throw InputError(motion.motion.source,
+                     "has no point over the chin (" + face::ibug(8) +
+                         " or pogonion) for the jaw to follow; name some in "
+                         "support.jaw_points, or set support.mandible = \"free\"");
+  return rows;
+}
+
 Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                    const AlignedMotion& motion, const MeasuredRegion& region,
                    const DriveOptions& drive, const SupportOptions& support)
@@ -121,12 +139,7 @@ Boundary::Boundary(const tissue::TissueMesh& mesh, const io::Landmarks& landmark
       rest_(motion.rest),
       jaw_(landmarks, mesh.bones.get()),
       driven_(std::move(driven)),
-      jaw_rows_(jaw_rows(motion, driven_->rows, support)) {
-  if (jaw_rows_.empty() && support.mandible == Mandible::follow)
-    throw InputError(motion.motion.source,
-                     "has no point over the chin (" + face::ibug(8) +
-                         " or pogonion) for the jaw to follow; name some in "
-                         "support.jaw_points, or set support.mandible = \"free\"");
+      jaw_rows_(needed_jaw_rows(motion, driven_->rows, support)) {
   hold_border(landmarks, support);
   set_bones(landmarks, support);
   number_unknowns();

@@ -22,6 +22,17 @@ struct DrivenSkin {
   Eigen::MatrixXd field_weights;  ///< |inner nodes| x P: the same for the field
 };
 
+/// The driven points, then those of the still ones that are not driven; `rows`: of the driven ones
+/// in the motion.
+struct ChosenPoints {
+  std::vector<DrivenPoint> points;
+  std::vector<int> rows;
+};
+
+/// Throws InputError for points that do not exist.
+ChosenPoints chosen_points(const io::Landmarks& landmarks, const AlignedMotion& motion,
+                           const DriveOptions& drive);
+
 /// Throws InputError for points that do not exist or lie far off the skin.
 DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                        const AlignedMotion& motion, const MeasuredRegion& region,
@@ -32,6 +43,10 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
 /// otherwise none. Throws InputError for a name that the motion lacks.
 std::vector<int> jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
                           const SupportOptions& support);
+
+/// The same; throws InputError too where there are none and the mandible is to follow them.
+std::vector<int> needed_jaw_rows(const AlignedMotion& motion, const std::vector<int>& driven,
+                                 const SupportOptions& support);
 
 /// What is prescribed to the tissue over time. Patches of skin and measured nodes follow the
 /// tracked points, held nodes stay, and springs pull towards the bones. Springs over the mandible

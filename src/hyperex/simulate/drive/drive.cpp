@@ -185,17 +185,22 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
   return still;
 }
 
-DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
-                             double patch_radius_m, const std::string& source) {
-  const std::vector<DrivenPoint>& points = field.points();
-  const SurfaceTree skin(mesh.skin);
+void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
+                   const std::string& source) {
   constexpr double off_skin_m = 0.025;
+  const SurfaceTree tree(skin);
   for (const DrivenPoint& p : points)
-    if (const double d = std::sqrt(skin.query(p.rest).squared_distance); d > off_skin_m)
+    if (const double d = std::sqrt(tree.query(p.rest).squared_distance); d > off_skin_m)
       throw InputError(source,
                        fmt::format("driven point {} lies {:.0f} mm off the skin after alignment; "
                                    "expected at most {:.0f} mm",
                                    p.name, d * 1e3, off_skin_m * 1e3));
+}
+
+DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
+                             double patch_radius_m, const std::string& source) {
+  const std::vector<DrivenPoint>& points = field.points();
+  check_on_skin(points, mesh.skin, source);
   const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
   std::set<int> nodes;
   std::vector<std::string> names;

@@ -69,6 +69,10 @@ struct DrivenPatches {
 };
 
 /// Throws InputError ("source: ...") where a point lies farther than 25 mm from the skin.
+void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
+                   const std::string& source);
+
+/// Throws as check_on_skin().
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
                              double patch_radius_m, const std::string& source);
 

@@ -72,6 +72,9 @@ void Simulator::use_order(std::shared_ptr<const EliminationOrder> order) {
   impl_->use_order(std::move(order));
 }
 
+void Simulator::check_before_run() {
+  impl_->check_before_run();
+}
 void Simulator::prepare() {
   impl_->progress.begin({});
   impl_->prepare();

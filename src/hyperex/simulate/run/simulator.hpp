@@ -193,6 +193,10 @@ class Simulator {
   /// before options are set. Numbers stay the same.
   void reuse_factor(Simulator&& spent);
 
+  /// Throws what prepare() and run() would throw because of points, muscles, the jaw or the number
+  /// of steps, and assembles nothing: milliseconds.
+  void check_before_run();
+
   /// Computes the stages up to the factor. Copies made afterwards share what they can. Throws as
   /// run().
   void prepare();

@@ -73,10 +73,13 @@ struct Simulator::Impl {
   void ensure_factor();
   void ensure_full_model();
   void ensure_muscle_model();
+  /// Throws InputError where forces are to drive a face of which a region is measured.
+  void check_no_region_is_measured() const;
   void ensure_load(const PointCurve& points);
   void ensure_input(const PointCurve& points);
   void ensure_obstacle_places();
   void ensure_contact_model();
+  void check_before_run();
   void prepare();
 
   fem::Material material() const;

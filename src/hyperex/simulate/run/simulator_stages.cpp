@@ -10,6 +10,7 @@
 #include "hyperex/core/stopwatch.hpp"
 #include "hyperex/simulate/load/added_volume.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
+#include "hyperex/simulate/load/muscle_prior.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
 namespace hyperex::simulate {
@@ -243,12 +244,16 @@ HeldLoad Simulator::Impl::reaction_load(const PointCurve& points) {
   return found;
 }
 
-void Simulator::Impl::ensure_load(const PointCurve& points) {
-  if (stages.load.has_value() || !by_forces()) return;
+void Simulator::Impl::check_no_region_is_measured() const {
   if (options.region.measured != Measured::none)
     throw InputError("drive.by",
                      "forces cannot drive a face of which a region follows the recording "
                      "(region.measured): expected drive.by = \"displacement\"");
+}
+
+void Simulator::Impl::ensure_load(const PointCurve& points) {
+  if (stages.load.has_value() || !by_forces()) return;
+  check_no_region_is_measured();
   const bool muscles = options.drive.by == DriveBy::muscles;
   if (muscles) ensure_muscle_model();
   const auto samples = double(motion->motion.time_s.size());
@@ -289,6 +294,20 @@ void Simulator::Impl::ensure_input(const PointCurve& points) {
         own, [&](double t) { return points.at(t); }, options.time.step_s, steps(),
         1e-3 * options.solver.tolerance));
   });
+}
+
+void Simulator::Impl::check_before_run() {
+  ensure_skin();
+  if (options.region.measured == Measured::all) return;  // nothing is simulated
+  if (by_forces()) check_no_region_is_measured();
+  const ChosenPoints chosen = chosen_points(*landmarks, *motion, options.drive);
+  check_on_skin(chosen.points, mesh->skin, motion->motion.source);
+  if (options.drive.by == DriveBy::muscles)
+    muscle_prior(muscles::muscle_lines(options.muscles.table(), *mesh, *landmarks),
+                 options.muscles);
+  else
+    needed_jaw_rows(*motion, chosen.rows, options.support);
+  steps();
 }
 
 void Simulator::Impl::prepare() {

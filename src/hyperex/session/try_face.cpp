@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/try_face.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "hyperex/core/progress.hpp"
+#include "hyperex/session/drive_choice.hpp"
+#include "hyperex/session/driven_points.hpp"
+#include "hyperex/session/face_options.hpp"
+#include "hyperex/session/prepared_face.hpp"
+#include "hyperex/session/run_cost.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/mesh/tissue_mesh.hpp"
+
+namespace hyperex::session {
+namespace {
+
+bool names_regions(const scene::Scene& scene) {
+  return !scene.tissue.regions.empty() ||
+         std::ranges::any_of(scene.variants, [](const scene::Variant& variant) {
+           return !variant.scene.tissue.regions.empty();
+         });
+}
+
+double expected_nodes(const scene::Scene& scene, const Inputs& inputs) {
+  return tissue::expected_surface_nodes(inputs.scan.mesh, inputs.landmarks, scene.mesh) *
+         (scene.mesh.layers + 1);
+}
+
+PreparedFace meshed_face(const scene::Scene& scene, Inputs& inputs) {
+  Progress progress("meshing the soft tissue", 0);
+  return prepare_face(scene, inputs, [] {});
+}
+
+void try_motion(const simulate::Simulator& base, const std::vector<VariantRun>& runs) {
+  for (const VariantRun& run : runs) {
+    simulate::Simulator own = base;
+    own.set_options(run.options);
+    own.check_before_run();
+  }
+}
+
+}  // namespace
+
+std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
+  if (inputs.landmarks.empty()) {
+    if (!names_regions(given)) return {};
+    return {make_note("tissue.regions_unchecked",
+                      "not checked: whether the regions of the tissue lie on this scan and which "
+                      "values their factors lead to",
+                      "tissue.region")};
+  }
+  if (const double nodes = expected_nodes(given, inputs); nodes > kMostTriedNodes)
+    return {
+        make_note("mesh.unchecked",
+                  fmt::format("not checked, as a mesh of about {:.0f} nodes takes long: whether "
+                              "it can be made, and the tissue and the driven points on it",
+                              nodes))};
+  scene::Scene scene = given;
+  scene.drive.by = drive_choice(given).by;
+  inputs.driven = driven_points(scene, inputs.motion.motion);
+  const PreparedFace face = meshed_face(scene, inputs);
+  TissueFields fields(inputs, *face.mesh);
+  const FaceOptions options = face_options(scene, inputs, fields);
+  simulate::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, options.base);
+  const bool has_motion = scene.motion.recording.empty();
+  if (has_motion) simulator.check_before_run();
+  checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
+  if (has_motion) try_motion(simulator, options.runs);
+  return {};
+}
+
+}  // namespace hyperex::session

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <vector>
+
+#include "hyperex/core/note.hpp"
+#include "hyperex/session/inputs.hpp"
+
+namespace hyperex::session {
+
+/// A mesh of this many nodes takes about 3 s on two idle processors: as long as a check may.
+inline constexpr double kMostTriedNodes = 40000;
+
+/// Does what a run does before it assembles matrices: the mesh, the tissue on it, what moves the
+/// face, and the same of each variant. Throws InputError, in a run's words, with what a run refuses
+/// by then. Where landmarks are unknown or the mesh would have more than kMostTriedNodes nodes,
+/// nothing is done and a note says so. Of a camera's recording the points are not tried: `inputs`
+/// of Extent::quick hold one frame of it. `inputs`: of read_inputs().
+std::vector<Note> try_face(const scene::Scene& scene, Inputs inputs);
+
+}  // namespace hyperex::session
