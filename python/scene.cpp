@@ -332,9 +332,10 @@ void bind_scene(py::module_& m) {
         "What `hyperex run` does: writes all outputs into the folder `out` and returns the content "
         "of summary.json as a dict. `changes`: {\"tissue.young_kpa\": 300}. Ctrl-C ends it when it "
         "is done.");
-  m.def("check_scene", &checked, "file"_a, "changes"_a = py::dict(),
-        "What `hyperex check` does: reads everything, simulates nothing; {notes, warnings, "
-        "remarks}.");
+  m.def(
+      "check_scene", &checked, "file"_a, "changes"_a = py::dict(),
+      "What `hyperex check` does: reads everything, meshes the tissue, simulates nothing; {notes, "
+      "warnings, remarks}.");
 }
 
 }  // namespace hyperex::python
