@@ -29,19 +29,22 @@ Eigen::MatrixXd spread(const Eigen::MatrixXd& of_driven, const std::vector<int>&
 
 /// Where a node is measured, it follows the tracked triangle and no patch.
 void add_measured(const MeasuredRegion& region, DrivenSkin& driven, Eigen::Index points) {
-  std::map<int, Eigen::RowVectorXd> rows;
+  std::map<int, std::pair<Eigen::RowVectorXd, double>> rows;  // weights and share
   for (std::size_t j = 0; j < driven.nodes.size(); ++j)
-    rows[driven.nodes[j]] = driven.weights.row(static_cast<Eigen::Index>(j));
+    rows[driven.nodes[j]] = {driven.weights.row(Eigen::Index(j)), driven.share[Eigen::Index(j)]};
   for (std::size_t v = 0; v < region.outer.size(); ++v) {
     if (region.outer_share[v] < 1) continue;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(points);
     for (int k = 0; k < 3; ++k) row[region.outer[v].point[k]] += region.outer[v].weight[k];
-    rows[static_cast<int>(v)] = row;
+    rows[static_cast<int>(v)] = {row, 1};
   }
   driven.nodes.clear();
   driven.weights.resize(static_cast<Eigen::Index>(rows.size()), points);
+  driven.share.resize(static_cast<Eigen::Index>(rows.size()));
   for (const auto& [node, row] : rows) {
-    driven.weights.row(static_cast<Eigen::Index>(driven.nodes.size())) = row;
+    const auto j = static_cast<Eigen::Index>(driven.nodes.size());
+    driven.weights.row(j) = row.first;
+    driven.share[j] = row.second;
     driven.nodes.push_back(node);
   }
 }
@@ -74,21 +77,23 @@ ChosenPoints chosen_points(const io::Landmarks& landmarks, const AlignedMotion& 
 
 DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                        const AlignedMotion& motion, const MeasuredRegion& region,
-                       const DriveOptions& drive) {
+                       const DriveOptions& drive, ChinPatches chin) {
   const auto [points, rows] = chosen_points(landmarks, motion, drive);
   DrivenSkin driven;
   driven.rows = rows;
   const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(points, still_places(points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
-  const DrivenPatches patches =
-      driven_patches(field, mesh, drive.patch_radius_m, motion.motion.source);
+  const DrivenPatches patches = driven_patches(
+      field, mesh, drive.patch_radius_m, motion.motion.source,
+      chin == ChinPatches::fading ? on_chin(points, landmarks) : std::vector<char>());
   const tissue::VolumeMesh& volume = mesh.volume;
   driven.field_weights =
       spread(field.weights(volume.nodes.bottomRows(volume.surface_nodes()), mesh.upper_margin),
              driven.rows, motion.rest.rows());
   driven.nodes = patches.nodes;
   driven.weights = spread(patches.weights, driven.rows, motion.rest.rows());
+  driven.share = patches.share;
   add_measured(region, driven, motion.rest.rows());
   return driven;
 }

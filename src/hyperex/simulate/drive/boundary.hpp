@@ -19,6 +19,7 @@ struct DrivenSkin {
   std::vector<int> rows;          ///< points of the motion that drive
   std::vector<int> nodes;         ///< outer nodes whose displacement is prescribed, rising
   Eigen::MatrixXd weights;        ///< |nodes| x P: displacement = weights * that of the points
+  Eigen::VectorXd share;          ///< |nodes|: DrivenPatches::share; 1 at measured nodes
   Eigen::MatrixXd field_weights;  ///< |inner nodes| x P: the same for the field
 };
 
@@ -33,10 +34,13 @@ struct ChosenPoints {
 ChosenPoints chosen_points(const io::Landmarks& landmarks, const AlignedMotion& motion,
                            const DriveOptions& drive);
 
+/// Whether the patches of points on the chin fade (DrivenPatches::share).
+enum class ChinPatches { even, fading };
+
 /// Throws InputError for points that do not exist or lie far off the skin.
 DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                        const AlignedMotion& motion, const MeasuredRegion& region,
-                       const DriveOptions& drive);
+                       const DriveOptions& drive, ChinPatches chin = ChinPatches::even);
 
 /// Rows of the motion's points that determine the jaw's pose: those that the options name;
 /// otherwise those of `driven` over the chin (ibug68_6 to 10); otherwise ibug68_8 or pogonion;

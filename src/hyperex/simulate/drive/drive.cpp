@@ -5,7 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
@@ -29,6 +29,9 @@ constexpr double one_place_m = 0.001;
 constexpr double correction_ridge = 1e-4;
 /// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
 constexpr double full_margin_m = 0.010;
+/// Where the share of a fading patch begins to fall, and its edge. A shorter patch leaves a step at
+/// its edge, which the skin of the chin shows (docs/muscles.md).
+constexpr double fading_from_m = 0.003, fading_reach_m = 0.028;
 
 std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t i,
                              const tissue::TissueMesh& mesh, double radius) {
@@ -48,6 +51,28 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
   }
   if (hit.empty() && nearest >= 0) hit.push_back(nearest);
   return hit;
+}
+
+/// Raises the shares (by node) over the patch of point i to those of this point. A fading patch has
+/// only nodes of the lower face, and its share is C2 between its ends.
+void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
+               const tissue::TissueMesh& mesh, double radius, bool fades,
+               const CarrierMatrix& carriers, std::map<int, double>& shares) {
+  const Points& skin = mesh.volume.outer.points;
+  const auto add = [&](int v, double share) {
+    double& has = shares.emplace(v, 0).first->second;
+    has = std::max(has, share);
+  };
+  for (const int v : patch_nodes(points, i, mesh, fades ? fading_reach_m : radius)) {
+    const double d = (skin.row(v).transpose() - points[i].rest).norm();
+    const double t = std::clamp((d - fading_from_m) / (fading_reach_m - fading_from_m), 0.0, 1.0);
+    if (!fades)
+      add(v, 1);
+    else if (t < 1 && mesh.upper_margin[std::size_t(v)] <= 0)
+      add(v, 1 - t * t * t * (10 - 15 * t + 6 * t * t));
+  }
+  for (CarrierMatrix::InnerIterator it(carriers, Eigen::Index(i)); it; ++it)
+    add(static_cast<int>(it.col()), 1);
 }
 
 /// Wendland's C2 function of compact support, positive definite in three dimensions.
@@ -198,35 +223,47 @@ void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
 }
 
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
-                             double patch_radius_m, const std::string& source) {
+                             double patch_radius_m, const std::string& source,
+                             const std::vector<char>& fading) {
   const std::vector<DrivenPoint>& points = field.points();
   check_on_skin(points, mesh.skin, source);
-  const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
-  std::set<int> nodes;
+  DrivenPatches patches;
   std::vector<std::string> names;
   Points rest(static_cast<Eigen::Index>(points.size()), 3);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    for (int v : patch_nodes(points, i, mesh, radius)) nodes.insert(v);
     names.push_back(points[i].name);
     rest.row(static_cast<Eigen::Index>(i)) = points[i].rest.transpose();
   }
-  DrivenPatches patches;
   patches.carriers = carriers(mesh, skin_places(mesh, names, rest));
-  for (Eigen::Index i = 0; i < rest.rows(); ++i)
-    for (CarrierMatrix::InnerIterator it(patches.carriers, i); it; ++it)
-      nodes.insert(static_cast<int>(it.col()));
-  patches.nodes.assign(nodes.begin(), nodes.end());
-  Points places(patches.nodes.size(), 3);
+  std::map<int, double> shares;  // by node
+  const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
+  for (std::size_t i = 0; i < points.size(); ++i)
+    add_patch(points, i, mesh, radius, !fading.empty() && fading[i], patches.carriers, shares);
+  patches.share.resize(static_cast<Eigen::Index>(shares.size()));
+  Points places(shares.size(), 3);
   std::vector<double> margin;
-  for (std::size_t j = 0; j < patches.nodes.size(); ++j) {
-    places.row(j) = mesh.volume.outer.points.row(patches.nodes[j]);
-    margin.push_back(mesh.upper_margin[patches.nodes[j]]);
+  for (const auto& [v, share] : shares) {
+    const auto j = static_cast<Eigen::Index>(patches.nodes.size());
+    patches.share[j] = share;
+    places.row(j) = mesh.volume.outer.points.row(v);
+    margin.push_back(mesh.upper_margin[std::size_t(v)]);
+    patches.nodes.push_back(v);
   }
   patches.weights = field.weights(places, margin);
   for (Eigen::Index j = 0; j < places.rows(); ++j)
-    places.row(j) = field.opened(places.row(j), margin[j]).transpose();
+    places.row(j) = field.opened(places.row(j), margin[std::size_t(j)]).transpose();
   meet_points(field.opened_points(), places, patches);
   return patches;
+}
+
+std::vector<char> on_chin(const std::vector<DrivenPoint>& points, const io::Landmarks& landmarks) {
+  constexpr double near_m = 0.012;
+  std::vector<char> out(points.size(), 0);
+  for (int k = 6; k <= 10; ++k)
+    if (const auto at = landmarks.find(face::ibug(k)); at != landmarks.end())
+      for (std::size_t i = 0; i < points.size(); ++i)
+        if ((points[i].rest - at->second).norm() < near_m) out[i] = 1;
+  return out;
 }
 
 }  // namespace hyperex::simulate

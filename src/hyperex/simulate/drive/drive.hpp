@@ -65,6 +65,7 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
+  Eigen::VectorXd share;    ///< |nodes|: how much of the field counts; below 1 in fading patches
   CarrierMatrix carriers;   ///< |points| x |outer nodes|: how the driven points follow the nodes
 };
 
@@ -72,8 +73,14 @@ struct DrivenPatches {
 void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
                    const std::string& source);
 
-/// Throws as check_on_skin().
+/// `fading`: empty, or one flag per point. The patch of a flagged point reaches 28 mm over the
+/// lower face. Its share falls smoothly from 1 at 3 mm to 0 at its edge, except in the patch of
+/// another point. Throws as check_on_skin().
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
-                             double patch_radius_m, const std::string& source);
+                             double patch_radius_m, const std::string& source,
+                             const std::vector<char>& fading = {});
+
+/// One flag per point: whether it lies within 12 mm of one of ibug68_6 to 10.
+std::vector<char> on_chin(const std::vector<DrivenPoint>& points, const io::Landmarks& landmarks);
 
 }  // namespace hyperex::simulate

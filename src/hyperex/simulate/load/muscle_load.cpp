@@ -100,6 +100,13 @@ Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven
   return out;
 }
 
+/// The rows of `displaced` times their nodes' shares.
+Eigen::MatrixXd faded(const DrivenSkin& patches, Eigen::MatrixXd displaced) {
+  for (Eigen::Index j = 0; j < patches.share.size(); ++j)
+    displaced.middleRows<3>(3 * j) *= patches.share[j];
+  return displaced;
+}
+
 /// The displacement of the patches by the field between the driven points, minus that by the nodal
 /// displacements `nodal` (3 |nodes| x n). The driven points are displaced according to `nodal`.
 Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
@@ -112,7 +119,8 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
 
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
 /// patches a column's displacement is `tissue_share` of that under its own forces, plus the rest of
-/// the field interpolated between the points. For the left-over it is that field alone.
+/// the field interpolated between the points. For the left-over it is that field alone. Where
+/// patches fade, the field counts less and less towards their edges.
 HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
                     const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
                     Eigen::Index points, const std::function<void()>& between) {
@@ -123,9 +131,9 @@ HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const D
   own << model.force(), model.wide_force(), model.jaw_force();
   moved << model.response(), model.wide_response(), model.jaw_response();
   Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
-  displaced << field_less_tissue(patches, driven, moved, points) *
-                   (1 - tissue_share.array()).matrix().asDiagonal(),
-      field_in_patches(patches, driven, left_over, points);
+  displaced << faded(patches, field_less_tissue(patches, driven, moved, points) *
+                                  (1 - tissue_share.array()).matrix().asDiagonal()),
+      faded(patches, field_in_patches(patches, driven, left_over, points));
   HeldShape out = holding_forces(model, patches.nodes, displaced, between);
   out.force.leftCols(own.cols()) += own;
   out.moved.leftCols(own.cols()) += moved.topRows(out.moved.rows());
@@ -220,6 +228,14 @@ std::vector<int> carrying(const CarrierMatrix& carrier) {
   return {nodes.begin(), nodes.end()};
 }
 
+/// The nodes at which at least half of the field counts.
+std::vector<int> firmly_held(const DrivenSkin& patches) {
+  std::vector<int> nodes;
+  for (std::size_t j = 0; j < patches.nodes.size(); ++j)
+    if (patches.share[Eigen::Index(j)] >= 0.5) nodes.push_back(patches.nodes[j]);
+  return nodes;
+}
+
 /// Adds forces that correct the displacement of the skin between the points, `skin`, towards that
 /// of shapes of real faces. These forces do not change when muscles change.
 void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
@@ -262,7 +278,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Driven driven(mesh, landmarks, motion, options.drive);
   DriveOptions drive = options.drive;
   if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
-  const DrivenSkin patches = driven_skin(mesh, landmarks, motion, region, drive);
+  const DrivenSkin patches =
+      driven_skin(mesh, landmarks, motion, region, drive, ChinPatches::fading);
   const JawKinematics jaw(landmarks, mesh.bones.get());
   MuscleFit fit = fit_of(model, jaw, driven, options.muscles);
 
@@ -308,7 +325,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
       forces_of(model, patches, driven, directions,
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.force = std::move(held.force);
-  load.patch_nodes = patches.nodes;
+  load.patch_nodes = firmly_held(patches);
   if (options.muscles.shape_prior)
     add_shapes(mesh, landmarks, motion, options, model, driven,
                {std::move(held.moved), load.course, seen}, between, load);
