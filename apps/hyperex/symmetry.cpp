@@ -29,11 +29,10 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/still_points.hpp"
-#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
-#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
 #include "symmetry_frames.hpp"
@@ -274,25 +273,18 @@ void run(const SymmetryOptions& options) {
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
-  const motion::MendedMotion mended = motion::without_wild_samples(
+  auto [motion, warnings] = session::cleaned_recording(
       motion::until(read(options, file, unit), options.end_s, "--end-s"));
-  const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
-  // Before a reading that is far off spoils the head's pose.
-  motion::check_reach_beside_head(motion);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
-  std::optional<Note> far_points;
-  if (!steady.head_pose.empty()) {
-    motion::check_reach(steady);
-    far_points = session::far_points_warning(steady);
-  }
-  for (const Note& warning : session::reading_warnings(mended)) spdlog::warn("{}", warning.text);
-  for (const auto& warning : {far_points, session::coarse_warning(motion),
+  if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady));
+  for (const auto& warning : {session::coarse_warning(motion),
                               session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
-    if (warning) spdlog::warn("{}", warning->text);
+    add(warnings, warning);
+  for (const Note& warning : warnings) spdlog::warn("{}", warning.text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0 && all.curve.known())

@@ -17,9 +17,8 @@
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
-#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 
 namespace hyperex::visits {
@@ -45,8 +44,7 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
   try {
     motion::StabilisedMotion steady =
         motion::stabilise(motion, {.rigid_points = visits.rigid_points});
-    motion::check_reach(steady.motion);
-    if (const auto far = session::far_points_warning(steady.motion))
+    if (const auto far = session::check_steady(steady.motion))
       face.remarks.push_back(with_file_name(far->text, motion.source));
     face.head_known = true;
     return steady;
@@ -279,15 +277,14 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
 
 MeasuredFace measure_recording(const fs::path& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first) {
-  const motion::MendedMotion mended = motion::without_wild_samples(
+  auto [motion, warnings] = session::cleaned_recording(
       motion::until(motion::read_motion(recording, visits.unit), visit.end_s, "end_s"));
-  motion::check_reach_beside_head(mended.motion);
-  MeasuredFace face = measure(mended.motion, visits, visit.jitter_m, first);
-  for (const Note& warning : session::reading_warnings(mended))
-    face.remarks.push_back(with_file_name(warning.text, mended.motion.source));
-  for (const auto& warning : {session::exchanged_warning(mended.motion, session::average_face()),
-                              session::timing_warning(mended.motion)})
-    if (warning) face.remarks.push_back(with_file_name(warning->text, mended.motion.source));
+  MeasuredFace face = measure(motion, visits, visit.jitter_m, first);
+  for (const auto& warning : {session::exchanged_warning(motion, session::average_face()),
+                              session::timing_warning(motion)})
+    add(warnings, warning);
+  for (const Note& warning : warnings)
+    face.remarks.push_back(with_file_name(warning.text, motion.source));
   return face;
 }
 
