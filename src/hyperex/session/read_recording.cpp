@@ -19,6 +19,7 @@
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -173,10 +174,6 @@ void check_rig(const scene::Scene& scene) {
   if (!scene.motion.candide.empty())
     throw InputError(
         scene::problem_at(scene, "motion.rig", "none, as motion.candide names the face model"));
-}
-
-bool of_weights(const scene::Scene& scene) {
-  return !scene.motion.arkit.empty() || !scene.motion.openface.empty() || scene.given.of_weights;
 }
 
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {
