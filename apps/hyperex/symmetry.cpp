@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -25,10 +24,10 @@
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/metrics/repetition_floor.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
-#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/still_points.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
@@ -111,38 +110,25 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
 /// Says which points hold the head's pose, as the user did not name them.
 void report_still_points(const std::vector<std::string>& names) {
   if (!names.empty())
-    std::cerr << fmt::format(
-        "head pose: taken out by {}, which keep their distances from each other, as points of the "
-        "skull do; --rigid-points names others, --keep-head keeps the head in\n",
-        fmt::join(names, ", "));
+    std::cerr << motion::still_points_sentence(names)
+              << "; --rigid-points names others, --keep-head keeps the head in\n";
 }
 
 /// Without --rigid-points, the pose is that of the face's landmarks, or of the points that the
 /// recording itself shows to be still. Where there are neither, the head stays in.
 motion::StabilisedMotion without_head(const motion::Motion& motion,
                                       const SymmetryOptions& options) {
-  const motion::StabilisedMotion kept{.motion = motion,
-                                      .pose_points = {},
-                                      .shift_uncertainty_m = {},
-                                      .turn_uncertainty_rad = {},
-                                      .poses = {}};
-  if (options.keep_head) return kept;
+  if (options.keep_head) return motion::with_head_kept(motion);
   if (!options.rig.empty()) return motion::with_still_head(motion);
   if (!options.rigid_points.empty())
     return motion::stabilise(motion, {.rigid_points = options.rigid_points});
-  try {
-    const std::vector<std::string> still = motion::proposed_rigid_points(motion);
-    motion::StabilisedMotion steady = motion::stabilise(motion, {.rigid_points = still});
+  const std::vector<std::string> still = motion::proposed_rigid_points(motion);
+  motion::TriedPose tried = motion::try_stabilise(motion, still, "--rigid-points");
+  if (tried.why_not.empty())
     report_still_points(still);
-    return steady;
-  } catch (const motion::OptionError& error) {
-    std::cerr << "head pose is not taken out, and excursions contain it: "
-              << error.sentence("--rigid-points") << '\n';
-    return kept;
-  } catch (const InputError& error) {
-    std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
-    return kept;
-  }
+  else
+    std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
+  return std::move(tried.steady);
 }
 
 /// S(t). If the motion lacks points that S(t) needs but has a pair of points to measure, a message
