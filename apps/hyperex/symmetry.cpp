@@ -183,10 +183,26 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
   print_summary(all, jitter);
 }
 
+/// The excursions, judged by jitter, the head's pose and repetition. Points of a rig have a still
+/// head.
+metrics::Excursions judged_excursions(const SymmetryOptions& options,
+                                      const motion::StabilisedMotion& steady,
+                                      const session::RecordedJitter& jitter) {
+  metrics::Excursions out =
+      metrics::excursions_of(steady.motion, jitter.jitter_m, options.output.lowpass_hz);
+  metrics::set_known(
+      out, {.jitter = jitter.known, .head = !options.rig.empty() || !steady.poses.empty()});
+  metrics::add_pose_floors(out,
+                           metrics::pose_variances(steady.motion, steady.poses, out.lowpass_hz));
+  metrics::add_repetition_floor(out, 1e3 * options.output.repetition_m);
+  return out;
+}
+
 void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> unit) {
   SurfaceFrames frames =
       read_surface_frames(options.motion, options.landmarks, unit, options.rate_hz);
-  if (!options.keep_head) steady(frames);
+  const motion::StabilisedMotion stabilised =
+      options.keep_head ? motion::with_head_kept(frames.tracks) : steady(frames);
   std::vector<PointsF> displacement;
   for (const Points& at : frames.positions)
     displacement.push_back((at - frames.rest.points).cast<float>());
@@ -194,14 +210,12 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   warn_of_unknown(jitter);
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(frames.tracks, options.output.symmetry_floor, jitter.jitter_m);
-  all.excursions =
-      metrics::excursions_of(frames.tracks, jitter.jitter_m, options.output.lowpass_hz);
-  metrics::set_known(all.excursions, {.jitter = jitter.known, .head = !options.keep_head});
+  all.excursions = judged_excursions(options, stabilised, jitter);
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, all, jitter, {});
+  report(options, all, jitter, stabilised);
 }
 
 /// The files of a folder. Each of them may be a frame.
@@ -275,12 +289,7 @@ void run(const SymmetryOptions& options) {
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
-  all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.output.lowpass_hz);
-  metrics::set_known(all.excursions, {.jitter = jitter.known,
-                                      .head = !options.rig.empty() || !stabilised.poses.empty()});
-  metrics::add_pose_floors(
-      all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
-  metrics::add_repetition_floor(all.excursions, 1e3 * options.output.repetition_m);
+  all.excursions = judged_excursions(options, stabilised, jitter);
   report(options, all, jitter, stabilised);
 }
 
