@@ -157,7 +157,7 @@ MeasureOverVisits over_visits(const Measure& measure, const std::vector<VisitEst
 /// Read and cleaned, by visit and recording.
 using Recordings = std::vector<std::vector<session::CleanedRecording>>;
 
-Recordings read_recordings(const VisitsFile& file) {
+Recordings cleaned_recordings(const VisitsFile& file) {
   Recordings out;
   for (const VisitEntry& visit : file.visits) {
     out.emplace_back();
@@ -230,7 +230,7 @@ Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>
 
 Comparison compare_visits(const VisitsFile& file,
                           const std::function<void(std::size_t)>& progress) {
-  const Recordings recordings = read_recordings(file);
+  const Recordings recordings = cleaned_recordings(file);
   const std::vector<std::string> still_points = still_points_of(file, recordings);
   std::vector<std::vector<MeasuredFace>> faces;
   std::size_t done = 0;
