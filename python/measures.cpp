@@ -47,14 +47,18 @@ void bind_excursion_change(py::module_& m) {
       .def_readonly(
           "band_mm", &ExcursionChange::band_mm,
           "Uncertainty of the change due to the mesh (by the twins) and jitter (95 %); NaN without "
-          "twins.")
+          "twins, and where the jitter is not known.")
+      .def_readonly("known_band_mm", &ExcursionChange::known_band_mm,
+                    "The same without a jitter that is not known; NaN without twins.")
       .def_property_readonly(
           "decided",
           [](const ExcursionChange& self) -> py::object {
-            if (std::isnan(self.band_mm)) return py::none();
-            return py::bool_(self.decided() == 1);
+            const double decided = self.decided();
+            if (std::isnan(decided)) return py::none();
+            return py::bool_(decided == 1);
           },
-          "Whether the change is larger than its band; None without twins.")
+          "Whether the change is larger than its band; None without twins, and where it is larger "
+          "than known_band_mm but the jitter is not known.")
       .def("__repr__", [](const ExcursionChange& change) {
         return fmt::format("<hyperex.ExcursionChange {:+.2f} ± {:.2f} mm>", change.change_mm(),
                            change.band_mm);

@@ -12,8 +12,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/motion/wild_samples.hpp"
-#include "hyperex/session/reading_warnings.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
 #include "refuse.hpp"
@@ -92,14 +91,12 @@ simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landm
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
                                  double max_gap_s, const Names& rigid_points, bool still_head,
                                  const std::string& method) {
-  const motion::MendedMotion mended = motion::without_wild_samples(motion);
-  warn_user(session::reading_warnings(mended));
-  motion::check_reach_beside_head(mended.motion);
-  const Motion whole = filled(mended.motion, max_gap_s);
+  const session::CleanedRecording cleaned = session::cleaned_recording(motion);
+  warn_user(cleaned.warnings);
+  const Motion whole = filled(cleaned.motion, max_gap_s);
   const Motion steady =
       still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points);
-  motion::check_reach(steady);
-  if (const auto far = session::far_points_warning(steady)) warn_user({*far});
+  if (const auto far = session::check_steady(steady)) warn_user({*far});
   return aligned(steady, landmarks, method);
 }
 

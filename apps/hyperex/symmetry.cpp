@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -25,15 +24,14 @@
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/metrics/repetition_floor.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
-#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/still_points.hpp"
-#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
-#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
 #include "symmetry_frames.hpp"
@@ -112,38 +110,25 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
 /// Says which points hold the head's pose, as the user did not name them.
 void report_still_points(const std::vector<std::string>& names) {
   if (!names.empty())
-    std::cerr << fmt::format(
-        "head pose: taken out by {}, which keep their distances from each other, as points of the "
-        "skull do; --rigid-points names others, --keep-head keeps the head in\n",
-        fmt::join(names, ", "));
+    std::cerr << motion::still_points_sentence(names)
+              << "; --rigid-points names others, --keep-head keeps the head in\n";
 }
 
 /// Without --rigid-points, the pose is that of the face's landmarks, or of the points that the
 /// recording itself shows to be still. Where there are neither, the head stays in.
 motion::StabilisedMotion without_head(const motion::Motion& motion,
                                       const SymmetryOptions& options) {
-  const motion::StabilisedMotion kept{.motion = motion,
-                                      .pose_points = {},
-                                      .shift_uncertainty_m = {},
-                                      .turn_uncertainty_rad = {},
-                                      .poses = {}};
-  if (options.keep_head) return kept;
+  if (options.keep_head) return motion::with_head_kept(motion);
   if (!options.rig.empty()) return motion::with_still_head(motion);
   if (!options.rigid_points.empty())
     return motion::stabilise(motion, {.rigid_points = options.rigid_points});
-  try {
-    const std::vector<std::string> still = motion::proposed_rigid_points(motion);
-    motion::StabilisedMotion steady = motion::stabilise(motion, {.rigid_points = still});
+  const std::vector<std::string> still = motion::proposed_rigid_points(motion);
+  motion::TriedPose tried = motion::try_stabilise(motion, still, "--rigid-points");
+  if (tried.why_not.empty())
     report_still_points(still);
-    return steady;
-  } catch (const motion::OptionError& error) {
-    std::cerr << "head pose is not taken out, and excursions contain it: "
-              << error.sentence("--rigid-points") << '\n';
-    return kept;
-  } catch (const InputError& error) {
-    std::cerr << "head pose is not taken out, and excursions contain it: " << error.what() << '\n';
-    return kept;
-  }
+  else
+    std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
+  return std::move(tried.steady);
 }
 
 /// S(t). If the motion lacks points that S(t) needs but has a pair of points to measure, a message
@@ -198,10 +183,26 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
   print_summary(all, jitter);
 }
 
+/// The excursions, judged by jitter, the head's pose and repetition. Points of a rig have a still
+/// head.
+metrics::Excursions judged_excursions(const SymmetryOptions& options,
+                                      const motion::StabilisedMotion& steady,
+                                      const session::RecordedJitter& jitter) {
+  metrics::Excursions out =
+      metrics::excursions_of(steady.motion, jitter.jitter_m, options.output.lowpass_hz);
+  metrics::set_known(
+      out, {.jitter = jitter.known, .head = !options.rig.empty() || !steady.poses.empty()});
+  metrics::add_pose_floors(out,
+                           metrics::pose_variances(steady.motion, steady.poses, out.lowpass_hz));
+  metrics::add_repetition_floor(out, 1e3 * options.output.repetition_m);
+  return out;
+}
+
 void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> unit) {
   SurfaceFrames frames =
       read_surface_frames(options.motion, options.landmarks, unit, options.rate_hz);
-  if (!options.keep_head) steady(frames);
+  const motion::StabilisedMotion stabilised =
+      options.keep_head ? motion::with_head_kept(frames.tracks) : steady(frames);
   std::vector<PointsF> displacement;
   for (const Points& at : frames.positions)
     displacement.push_back((at - frames.rest.points).cast<float>());
@@ -209,14 +210,12 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   warn_of_unknown(jitter);
   metrics::SymmetryMeasures all;
   all.curve = metrics::symmetry_of(frames.tracks, options.output.symmetry_floor, jitter.jitter_m);
-  all.excursions =
-      metrics::excursions_of(frames.tracks, jitter.jitter_m, options.output.lowpass_hz);
-  metrics::set_known(all.excursions, {.jitter = jitter.known, .head = !options.keep_head});
+  all.excursions = judged_excursions(options, stabilised, jitter);
   all.map =
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, all, jitter, {});
+  report(options, all, jitter, stabilised);
 }
 
 /// The files of a folder. Each of them may be a frame.
@@ -274,35 +273,23 @@ void run(const SymmetryOptions& options) {
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
-  const motion::MendedMotion mended = motion::without_wild_samples(
+  auto [motion, warnings] = session::cleaned_recording(
       motion::until(read(options, file, unit), options.end_s, "--end-s"));
-  const motion::Motion& motion = mended.motion;
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
-  // Before a reading that is far off spoils the head's pose.
-  motion::check_reach_beside_head(motion);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
-  std::optional<Note> far_points;
-  if (!steady.head_pose.empty()) {
-    motion::check_reach(steady);
-    far_points = session::far_points_warning(steady);
-  }
-  for (const Note& warning : session::reading_warnings(mended)) spdlog::warn("{}", warning.text);
-  for (const auto& warning : {far_points, session::coarse_warning(motion),
+  if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady));
+  for (const auto& warning : {session::coarse_warning(motion),
                               session::exchanged_warning(motion, session::average_face()),
                               session::timing_warning(motion)})
-    if (warning) spdlog::warn("{}", warning->text);
+    add(warnings, warning);
+  for (const Note& warning : warnings) spdlog::warn("{}", warning.text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
-  all.excursions = metrics::excursions_of(steady, jitter.jitter_m, options.output.lowpass_hz);
-  metrics::set_known(all.excursions, {.jitter = jitter.known,
-                                      .head = !options.rig.empty() || !stabilised.poses.empty()});
-  metrics::add_pose_floors(
-      all.excursions, metrics::pose_variances(steady, stabilised.poses, all.excursions.lowpass_hz));
-  metrics::add_repetition_floor(all.excursions, 1e3 * options.output.repetition_m);
+  all.excursions = judged_excursions(options, stabilised, jitter);
   report(options, all, jitter, stabilised);
 }
 

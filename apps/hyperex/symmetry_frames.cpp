@@ -8,7 +8,6 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/geometry/closest_point.hpp"
-#include "hyperex/motion/stabilise.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -80,14 +79,15 @@ SurfaceFrames read_surface_frames(const fs::path& folder, const fs::path& landma
   return frames;
 }
 
-void steady(SurfaceFrames& frames) {
-  const motion::StabilisedMotion steadied = motion::stabilise(frames.tracks);
+motion::StabilisedMotion steady(SurfaceFrames& frames) {
+  motion::StabilisedMotion steadied = motion::stabilise(frames.tracks);
   frames.tracks = steadied.motion;
   for (std::size_t k = 0; k < frames.positions.size(); ++k) {
     const Eigen::Isometry3d back = frames.tracks.head_pose[k].inverse();
     Points& at = frames.positions[k];
     at = ((at * back.linear().transpose()).rowwise() + back.translation().transpose()).eval();
   }
+  return steadied;
 }
 
 }  // namespace hyperex::cli

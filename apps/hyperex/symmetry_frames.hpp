@@ -7,6 +7,7 @@
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
 
 namespace hyperex::cli {
 
@@ -27,7 +28,9 @@ SurfaceFrames read_surface_frames(const std::filesystem::path& folder,
                                   const std::filesystem::path& landmarks,
                                   std::optional<io::LengthUnit> unit, double rate_hz);
 
-/// Removes the head's rigid motion, estimated from the tracks, from positions and tracks.
-void steady(SurfaceFrames& frames);
+/// Removes the head's rigid motion, estimated from the tracks as that of a recording
+/// (motion::stabilise), from positions and tracks. Returns the tracks with the errors of the pose.
+/// Throws InputError where the landmarks do not determine it.
+motion::StabilisedMotion steady(SurfaceFrames& frames);
 
 }  // namespace hyperex::cli

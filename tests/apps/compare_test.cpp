@@ -15,6 +15,7 @@
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/io/text_table.hpp"
 
 namespace hyperex {
 namespace {
@@ -228,6 +229,24 @@ TEST_F(Program, DrawsTheSymmetryOfSurfaces) {
   EXPECT_GT(at_end("S_ln"), at_end("S_floor"));
   EXPECT_GT(at_end("asymmetry_mouth_rms_mm"), 1);
   EXPECT_LT(at_end("asymmetry_mouth_p95_mm"), 5.2);
+  // The head's pose has the floor that it has in a recording, and repetition one of its own.
+  EXPECT_THAT(found.out, HasSubstr("head's pose: uncertain by up to "));
+  const auto corners = [&](const char* file, const char* name) {
+    const io::TextTable table = io::read_text_table(in(file));
+    const auto column = std::ranges::find(table.names, name) - table.names.begin();
+    for (const auto& row : table.rows)
+      if (row.at(0) == "cheilion") return row.at(std::size_t(column));
+    return std::string("no such row");
+  };
+  EXPECT_GT(std::stod(corners("e.csv", "pose_floor_mm")), 0);
+  EXPECT_EQ(corners("e.csv", "decided"), "1");
+  const std::string again = "symmetry face --landmarks l.json --jitter-mm 0.01 --excursions ";
+  ASSERT_EQ(call(again + "r.csv --repetition-mm 9").status, 0);
+  EXPECT_EQ(corners("r.csv", "decided"), "0");
+  const Outcome kept = call(again + "k.csv --keep-head");
+  ASSERT_EQ(kept.status, 0) << kept.err;
+  EXPECT_THAT(kept.out, testing::Not(HasSubstr("head's pose: ")));
+  EXPECT_NE(corners("k.csv", "decided"), "1") << "the head's motion is in the points";
 }
 
 TEST_F(Program, WritesSymmetryAsCsv) {

@@ -81,6 +81,30 @@ TEST_F(Visits, WarnOfJitterThatIsNotKnown) {
   EXPECT_THAT(outcome.err, HasSubstr("jitter_mm"));
 }
 
+TEST_F(Visits, TakeTheHeadOutByTheSamePointsAtEachVisit) {
+  motion::Motion opening = motion::embedded_mouth_opening(good_landmarks());
+  keep_mouth_and_headband(opening);
+  motion::write_motion_csv(in("before.csv"), opening);
+  const auto lost = Eigen::Index(opening.index_of("head_2"));
+  for (std::size_t k = 0; k < opening.positions.size(); ++k)
+    opening.positions[k](lost, 1) += 1e-4 * double(k);
+  motion::write_motion_csv(in("after.csv"), opening);
+  const Outcome found = call("visits v.toml --table found.csv");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err,
+              testing::AllOf(HasSubstr("taken out by head_1, head_3, head_4, head_5, head_6, which "
+                                       "keep their distances"),
+                             HasSubstr("in every recording; rigid_points of the visits names"),
+                             testing::Not(HasSubstr("head pose is not taken out"))));
+  const std::string visits = read_file(in("v.toml"));
+  std::ofstream(in("v.toml"))
+      << "rigid_points = [\"head_1\", \"head_3\", \"head_4\", \"head_5\", \"head_6\"]\n"
+      << visits;
+  const Outcome named = call("visits v.toml --table named.csv");
+  EXPECT_THAT(named.err, testing::Not(HasSubstr("taken out by")));
+  EXPECT_EQ(read_file(in("found.csv")), read_file(in("named.csv")));
+}
+
 TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {
   std::ofstream(in("mine.html")) << "<html>mine</html>";
   std::ofstream(in("text.csv")) << "no recording\n";

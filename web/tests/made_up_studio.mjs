@@ -150,10 +150,12 @@ class Session {
   }
   /** Sends the error budget of base and of the first variant. */
   budget() {
-    const figure = (of, side, value_mm, half_width_95_mm, more) => ({ figure: of, ...(side ? { side } : {}), value_mm, half_width_95_mm, largest_part: 'mesh', ...more });
+    const figure = (of, side, value_mm, half_width_95_mm, more) => ({ figure: of, ...(side ? { side } : {}), value_mm, half_width_95_mm, known_half_width_95_mm: half_width_95_mm, largest_part: 'mesh', ...more });
+    // What a figure has where the recording's jitter is not known.
+    const unknown = { half_width_95_mm: null, largest_part: '' };
     const figures = [
       figure('excursion', 'R', 8, 1), figure('excursion', 'L', 8.04, 1), figure('difference', '', 0.04, 1.5, { decided: false }),
-      ...this.faces.slice(1, 2).flatMap(({ name: variant }) => [figure('change', 'R', -3, 1, { variant, decided: true }), figure('change', 'L', -0.01, 0.2, { variant, decided: false })]),
+      ...this.faces.slice(1, 2).flatMap(({ name: variant }) => [figure('change', 'R', -3, 1, { variant, decided: null, ...unknown }), figure('change', 'L', -0.01, 0.2, { variant, decided: false })]),
     ];
     this.send({ event: 'budget', figures, missing: [], jitter_known: false, text: JSON.stringify(this.faces) });
   }

@@ -92,10 +92,10 @@ async function dragged(change) {
   }];
   data.summary.symmetry = { ...data.summary.symmetry, excursions: pair(6.74, 6.71) };
   Object.assign(base, { commissure_R_mm: 6.74, commissure_L_mm: 6.71 });
-  const { right, left = 6.76, along = right, weaker = ['R'] } = change;
+  const { right, left = 6.76, along = right, weaker = ['R'], more = {} } = change;
   Object.assign(own, {
     excursions: pair(right, left), commissure_R_mm: right, commissure_L_mm: left, commissure_R_band_mm: 0.7, commissure_L_band_mm: 0.2,
-    commissure_R_along_base_mm: along, commissure_L_along_base_mm: left, weaker_sides: weaker,
+    commissure_R_along_base_mm: along, commissure_L_along_base_mm: left, weaker_sides: weaker, ...more,
   });
   for (const key of ['R', 'L']) own[`commissure_${key}_from_base_mm`] = null;
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'dragged.html');
@@ -116,6 +116,14 @@ test('a weak corner that goes farther is dragged; the healthy one is not called 
   assert.equal(headline, 'right 8.9 mm, left 6.8 mm');
   assert.equal(change, 'right is dragged 2.2 mm farther than in base (± 0.7 mm)');
   assert.equal(line, 'right corner 8.9 mm, is dragged 2.2 mm farther than in base (± 0.7 mm)');
+});
+
+test('a change has no band and is not decided where the jitter is not known', async () => {
+  const more = { jitter_known: false, commissure_R_band_mm: null, commissure_L_band_mm: null, commissure_R_decided: null, commissure_L_decided: 0 };
+  const { change, line } = await dragged({ right: 8.91, more });
+  assert.equal(change, 'right is dragged 2.2 mm farther than in base: cannot tell, as the jitter of the recording is not known');
+  assert.equal(line, 'right corner 8.9 mm, is dragged 2.2 mm farther than in base (cannot tell, as the jitter of the recording is not known)');
+  assert.match((await dragged({ right: 7.1, more: { ...more, commissure_R_decided: 0 } })).change, /: undecided$/);
 });
 
 test('a weak corner moves less, one in stiff tissue follows less', async () => {

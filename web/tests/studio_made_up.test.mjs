@@ -162,8 +162,8 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     const lines = page.locator('.certainty-lines li');
     await lines.first().waitFor();
     assert.deepEqual(await lines.allInnerTexts(), [
-      'Right changes by −3.0 mm (95 %: −4.0 to −2.0; mostly mesh)', 'Left changes by 0.0 mm (95 %: −0.2 to 0.2; mostly mesh), undecided',
-      'The recording shows no jitter: unless its points are exact, these intervals are too narrow.',
+      'Right changes by −3.0 mm (at least ± 1.0), cannot tell', 'Left changes by 0.0 mm (95 %: −0.2 to 0.2; mostly mesh), undecided',
+      'The recording’s jitter is not known, so that these intervals are not: each is wider than its known parts make it.',
     ]);
     assert.equal(await page.locator('.certainty-ask').isVisible(), false);
     await page.locator('[data-mode=single]').dispatchEvent('click');

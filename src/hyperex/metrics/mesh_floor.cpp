@@ -100,7 +100,9 @@ ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Si
   const double mesh_mm = change.change_mm() - (of_twin(to) - of_twin(from));
   const double scaled = change.from_mm > 0 ? std::abs(change.to_mm / change.from_mm - 1) : 0;
   const double jitter_mm = from.jitter_floor_mm / std::sqrt(2.0) * scaled;
-  change.band_mm = std::hypot(mesh_mm, jitter_mm) + 1e3 * kResolution_m;
+  change.known_band_mm = std::hypot(mesh_mm, jitter_mm) + 1e3 * kResolution_m;
+  const bool known = scaled == 0 || (from.known.jitter && to.known.jitter);
+  change.band_mm = known ? change.known_band_mm : std::numeric_limits<double>::quiet_NaN();
   return change;
 }
 

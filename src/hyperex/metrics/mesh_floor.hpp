@@ -59,12 +59,17 @@ struct ExcursionChange {
   /// squares and adds kResolution_m. That of the mesh is |(to - from) - (to' - from')|, from the
   /// mirrored twins (one sample). That of the recording's jitter is |to / from - 1| times one
   /// side's part of the jitter floor (95 %); this form applies because both runs share the jitter,
-  /// which a changed face scales. NaN without twins. Errors of tissue or muscles are not included.
+  /// which a changed face scales. NaN without twins, and where the jitter is not known. Errors of
+  /// tissue or muscles are not included.
   double band_mm = 0;
+  /// The same of what is known, without a jitter that is not; NaN without twins.
+  double known_band_mm = 0;
   double change_mm() const { return to_mm - from_mm; }
-  /// 1 if the change is larger than its band, otherwise 0; NaN if no band is known.
+  /// 0 if the change is not larger than what is known of its band, 1 if it is larger than all of
+  /// it; NaN if it is larger than the former and the rest is not known, and without twins.
   double decided() const {
-    return std::isnan(band_mm) ? band_mm : double(std::abs(change_mm()) > band_mm);
+    if (std::abs(change_mm()) <= known_band_mm) return 0;
+    return std::isnan(band_mm) ? band_mm : 1;
   }
 };
 /// The change for one pair of points in two runs. add_mesh_floor() must have been applied to both.

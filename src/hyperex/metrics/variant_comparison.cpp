@@ -104,7 +104,7 @@ void measure_farthest(const simulate::Performance& own, const simulate::Performa
 }
 
 void measure_commissures(const ComparedRun& base, const ComparedRun& run, VariantComparison& c) {
-  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan("")};
+  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   const Excursions& before = base.symmetry.excursions;
   const Excursions& excursions = run.symmetry.excursions;
   for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
@@ -210,6 +210,7 @@ VariantComparison compare_variant(const std::string& name, const ComparedRun& ba
   c.mean_change_mm = 1e3 * mean(c.difference.change_at_peak_m, area);
   measure_farthest(own, p, landmarks, c);
   measure_commissures(base, run, c);
+  c.jitter_known = base.symmetry.excursions.known.jitter && run.symmetry.excursions.known.jitter;
   const Asymmetry& map = *run.symmetry.map;
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
   c.asymmetry_mm = map.frames[peak].face_rms_mm;

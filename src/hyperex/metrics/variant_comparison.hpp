@@ -84,6 +84,9 @@ struct VariantComparison {
     if (std::isnan(added_xi_floor)) return added_xi_floor;
     return std::abs(added_xi_difference) > added_xi_floor ? 1 : 0;
   }
+  /// Whether the jitter of the recording is known; 0 may be known. Otherwise the bands of the
+  /// corners are NaN.
+  bool jitter_known = true;
   /// Share of the area-weighted sum of squared distances (greatest over time) within 25 mm of the
   /// outline of the lips; NaN if all distances are 0.
   double share_near_mouth = 0;

@@ -32,6 +32,8 @@ std::vector<std::pair<const char*, double>> figures_of(const VariantComparison& 
           {"commissure_L_change_mm", c.commissure_left.change_mm()},
           {"commissure_R_band_mm", c.commissure_right.band_mm},
           {"commissure_L_band_mm", c.commissure_left.band_mm},
+          {"commissure_R_decided", c.commissure_right.decided()},
+          {"commissure_L_decided", c.commissure_left.decided()},
           {"commissure_R_from_base_mm", c.right_from_base.most_mm},
           {"commissure_R_from_base_s", c.right_from_base.time_s},
           {"commissure_L_from_base_mm", c.left_from_base.most_mm},
@@ -56,13 +58,13 @@ void write_variants_csv(const std::filesystem::path& file, const VariantComparis
   write_file_atomically(file, [&](std::ostream& out) {
     out << "variant";
     for (const auto& figure : figures_of(base)) out << ',' << figure.first;
-    out << ",farthest_near,driven_point,response_point\n";
+    out << ",farthest_near,driven_point,response_point,jitter_known\n";
     const auto row = [&](const VariantComparison& c) {
       out << io::in_quotes_where_needed(c.name);
       for (const auto& figure : figures_of(c)) out << ',' << cell(figure.second);
-      fmt::print(out, ",{},{},{}\n", io::in_quotes_where_needed(c.farthest_near),
-                 io::in_quotes_where_needed(pair.driven),
-                 io::in_quotes_where_needed(pair.response));
+      fmt::print(out, ",{},{},{},{:d}\n", io::in_quotes_where_needed(c.farthest_near),
+                 io::in_quotes_where_needed(pair.driven), io::in_quotes_where_needed(pair.response),
+                 c.jitter_known);
     };
     row(base);
     for (const auto& one : compared) row(one);
@@ -72,16 +74,18 @@ void write_variants_csv(const std::filesystem::path& file, const VariantComparis
 void write_variant_excursions_csv(const std::filesystem::path& file, const Excursions& base,
                                   const std::vector<NamedExcursions>& variants) {
   write_file_atomically(file, [&](std::ostream& out) {
-    out << "variant,point,side,base_mm,variant_mm,change_mm,band_mm,decided\n";
+    out << "variant,point,side,base_mm,variant_mm,change_mm,band_mm,decided,jitter_known\n";
     for (const NamedExcursions& variant : variants)
       for (std::size_t i = 0; i < base.pairs.size(); ++i)
         for (const Side side : {Side::right, Side::left}) {
           const PairExcursion& pair = variant.excursions.pairs.at(i);
           const auto change = change_of(base.pairs[i], pair, side);
-          fmt::print(out, "{},{},{},{},{},{},{},{}\n", io::in_quotes_where_needed(variant.name),
+          fmt::print(out, "{},{},{},{},{},{},{},{},{:d}\n",
+                     io::in_quotes_where_needed(variant.name),
                      io::in_quotes_where_needed(pair.name), side == Side::left ? 'L' : 'R',
                      cell(change.from_mm), cell(change.to_mm), cell(change.change_mm()),
-                     cell(change.band_mm), cell(change.decided()));
+                     cell(change.band_mm), cell(change.decided()),
+                     base.pairs[i].known.jitter && pair.known.jitter);
         }
   });
 }
@@ -91,6 +95,7 @@ nlohmann::ordered_json json_of(const VariantComparison& c) {
   json["name"] = c.name;
   for (const auto& [name, value] : figures_of(c)) json[name] = value;  // NaN is written as null
   json["farthest_near"] = c.farthest_near;
+  json["jitter_known"] = c.jitter_known;
   return json;
 }
 

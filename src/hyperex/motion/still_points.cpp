@@ -31,6 +31,29 @@ std::vector<int> candidates(const Motion& motion) {
   return out;
 }
 
+/// The names of the candidates that all motions have, in the order of the first.
+std::vector<std::string> common_candidates(const std::vector<const Motion*>& motions) {
+  std::vector<std::string> common;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    std::vector<std::string> names;
+    for (const int row : candidates(*motions[i]))
+      names.push_back(motions[i]->names[std::size_t(row)]);
+    if (i == 0)
+      common = std::move(names);
+    else
+      std::erase_if(common, [&](const std::string& name) {
+        return std::ranges::find(names, name) == names.end();
+      });
+  }
+  return common;
+}
+
+std::vector<int> columns_of(const Motion& motion, const std::vector<std::string>& names) {
+  std::vector<int> columns;
+  for (const std::string& name : names) columns.push_back(motion.index_of(name));
+  return columns;
+}
+
 /// The largest change of the distance between each pair of `points`.
 Eigen::MatrixXd distance_changes(const Motion& motion, const std::vector<int>& points) {
   const auto count = Eigen::Index(points.size());
@@ -113,12 +136,8 @@ Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eig
   return worst;
 }
 
-}  // namespace
-
-std::vector<std::string> find_still_points(const Motion& motion) {
-  if (motion.positions.size() < 2) return {};
-  const std::vector<int> points = candidates(motion);
-  const Eigen::MatrixXd change = distance_changes(motion, points);
+/// The largest set found whose distances change by at most kStillPoints_m, in rising order.
+std::vector<Eigen::Index> largest_still_set(const Eigen::MatrixXd& change) {
   std::vector<Eigen::Index> best;
   for (Eigen::Index seed = 0; seed < change.rows(); ++seed) {
     std::vector<Eigen::Index> nearest(std::size_t(change.rows()));
@@ -131,16 +150,37 @@ std::vector<std::string> find_still_points(const Motion& motion) {
         set.push_back(i);
     if (set.size() > best.size()) best = set;
   }
-  if (best.size() < kLeastStillPoints) return {};
   std::ranges::sort(best);
-  std::vector<std::string> names;
-  Points at(Eigen::Index(best.size()), 3);
-  for (std::size_t i = 0; i < best.size(); ++i) {
-    const int row = points[std::size_t(best[i])];
-    names.push_back(motion.names[std::size_t(row)]);
-    at.row(Eigen::Index(i)) = motion.positions.front().row(row);
-  }
-  return spread_off_line(at) < kLeastStillSpread ? std::vector<std::string>{} : names;
+  return best;
+}
+
+bool lie_near_a_line(const Motion& motion, const std::vector<std::string>& names) {
+  Points at(Eigen::Index(names.size()), 3);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    at.row(Eigen::Index(i)) = motion.positions.front().row(motion.index_of(names[i]));
+  return spread_off_line(at) < kLeastStillSpread;
+}
+
+}  // namespace
+
+std::vector<std::string> find_still_points(const Motion& motion) {
+  return find_still_points(std::vector{&motion});
+}
+
+std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions) {
+  if (std::ranges::any_of(motions, [](const Motion* m) { return m->positions.size() < 2; }))
+    return {};
+  const std::vector<std::string> names = common_candidates(motions);
+  const auto count = Eigen::Index(names.size());
+  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(count, count);
+  for (const Motion* motion : motions)
+    change = change.cwiseMax(distance_changes(*motion, columns_of(*motion, names))).eval();
+  std::vector<std::string> still;
+  for (const Eigen::Index i : largest_still_set(change)) still.push_back(names[std::size_t(i)]);
+  if (still.size() < kLeastStillPoints) return {};
+  const bool on_a_line =
+      std::ranges::any_of(motions, [&](const Motion* m) { return lie_near_a_line(*m, still); });
+  return on_a_line ? std::vector<std::string>{} : still;
 }
 
 std::vector<UnsteadyPoint> unsteady_points(const Motion& motion,
@@ -170,7 +210,13 @@ bool has_pose_points(const Motion& motion) {
 }
 
 std::vector<std::string> proposed_rigid_points(const Motion& motion) {
-  return has_pose_points(motion) ? std::vector<std::string>() : find_still_points(motion);
+  return proposed_rigid_points(std::vector{&motion});
+}
+
+std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>& motions) {
+  const bool all =
+      std::ranges::all_of(motions, [](const Motion* m) { return has_pose_points(*m); });
+  return all ? std::vector<std::string>() : find_still_points(motions);
 }
 
 }  // namespace hyperex::motion

@@ -14,6 +14,9 @@ namespace hyperex::motion {
 /// also move together. Empty where fewer than four points are found, or where they lie nearly on a
 /// line. Of a long recording 200 to 400 evenly spaced samples are used.
 std::vector<std::string> find_still_points(const Motion& motion);
+/// The same of several recordings of one face, not null: points that all of them have and that keep
+/// their distances in each. How far they are apart may differ between the recordings.
+std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions);
 
 /// Allows for the motion of a marker glued to the skin over bone, and for measurement noise.
 inline constexpr double kStillPoints_m = 1e-3;
@@ -40,5 +43,8 @@ std::vector<UnsteadyPoint> unsteady_points(const Motion& motion,
 /// The points to name as moving with the skull where has_pose_points() is false:
 /// find_still_points().
 std::vector<std::string> proposed_rigid_points(const Motion& motion);
+/// One set for several recordings of one face, so that their poses have the same meaning: that of
+/// find_still_points(), where has_pose_points() is false for one of them.
+std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>& motions);
 
 }  // namespace hyperex::motion

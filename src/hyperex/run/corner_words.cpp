@@ -36,7 +36,9 @@ std::string floor_clause(const Json& corners, double apart_mm) {
 /// A corner of the mouth in base and in a variant; what is not known is not a number.
 struct CornerChange {
   double from_mm, to_mm, band_mm;
-  double along_mm;  ///< along the way of base
+  double decided;     ///< whether the change from rest exceeds its band, 1 or 0
+  bool jitter_known;  ///< else the band is not
+  double along_mm;    ///< along the way of base
   double far_mm, far_s;
   bool weaker;  ///< some muscle of that side pulls less than in base
 };
@@ -65,9 +67,10 @@ std::string change_words(const CornerChange& c) {
   if (same_way && (std::abs(by) < same_mm || std::abs(c.to_mm - c.from_mm) < same_mm))
     return fmt::format("{:.1f} mm, unchanged", from) + path_clause(c, 0);
   const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to);
-  const std::string band = std::isnan(c.band_mm) ? "" : fmt::format(" (+- {:.1f})", c.band_mm);
-  if (std::abs(same_way ? c.to_mm - c.from_mm : by) < c.band_mm)
+  std::string band = std::isnan(c.band_mm) ? "" : fmt::format(" (+- {:.1f})", c.band_mm);
+  if (std::abs(same_way ? c.to_mm - c.from_mm : by) < c.band_mm || (same_way && c.decided == 0))
     return way + "undecided" + band + path_clause(c, by);
+  if (!c.jitter_known) band = " (cannot tell: the recording's jitter is not known)";
   if (!same_way && along < 0)
     return way + fmt::format("goes {:.1f} mm the other way", -rounded_mm(along)) + band +
            path_clause(c, by);
@@ -85,6 +88,8 @@ std::string side_words(const Json& base, const Json& variant, const std::string&
   const CornerChange c{number(base, "_mm"),
                        number(variant, "_mm"),
                        number(variant, "_band_mm"),
+                       number(variant, "_decided"),
+                       variant.value("jitter_known", true),
                        number(variant, "_along_base_mm"),
                        number(variant, "_from_base_mm"),
                        number(variant, "_from_base_s"),

@@ -15,4 +15,8 @@ std::filesystem::path& recording_file(MotionOptions& motion) {
   return const_cast<std::filesystem::path&>(recording_file(std::as_const(motion)));
 }
 
+bool of_weights(const Scene& scene) {
+  return !scene.motion.arkit.empty() || !scene.motion.openface.empty() || scene.given.of_weights;
+}
+
 }  // namespace hyperex::scene

@@ -11,4 +11,8 @@ namespace hyperex::scene {
 std::filesystem::path& recording_file(MotionOptions& motion);
 const std::filesystem::path& recording_file(const MotionOptions& motion);
 
+/// Whether the recording is one of expressions' weights (motion.arkit, motion.openface, or a given
+/// motion made of them), which are 0 at rest.
+bool of_weights(const Scene& scene);
+
 }  // namespace hyperex::scene

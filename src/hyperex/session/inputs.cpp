@@ -8,6 +8,7 @@
 #include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/idle_keys.hpp"

@@ -5,7 +5,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <iterator>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -19,11 +18,11 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/still_points.hpp"
-#include "hyperex/motion/wild_samples.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/check_names.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
-#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/track_recording.hpp"
 #include "hyperex/session/unknown_names.hpp"
@@ -159,19 +158,6 @@ void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady
                     in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg)));
 }
 
-/// Wild readings of recorded points are mended. Points that weights move are only reported as
-/// jumps: the weights were mended before, and mending single points would distort the face.
-motion::MendedMotion mended_points(const scene::Scene& scene, const motion::Motion& m) {
-  motion::MendedMotion out = motion::without_wild_samples(m);
-  if (scene.given.motion || !of_weights(scene)) return out;
-  for (const motion::WildSample& wild : out.wild)
-    if (wild.off_m > motion::kWildJump_m) out.jumps.push_back(wild);
-  std::ranges::stable_sort(out.jumps, {}, &motion::WildSample::sample);
-  for (auto* readings : {&out.wild, &out.zeros, &out.lone}) readings->clear();
-  out.motion = m;
-  return out;
-}
-
 /// A quick reading of a camera's recording has its first face alone.
 bool is_read_whole(const scene::Scene& scene, Extent extent) {
   return scene.motion.recording.empty() || extent == Extent::full;
@@ -188,10 +174,6 @@ void check_rig(const scene::Scene& scene) {
   if (!scene.motion.candide.empty())
     throw InputError(
         scene::problem_at(scene, "motion.rig", "none, as motion.candide names the face model"));
-}
-
-bool of_weights(const scene::Scene& scene) {
-  return !scene.motion.arkit.empty() || !scene.motion.openface.empty() || scene.given.of_weights;
 }
 
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in) {
@@ -222,13 +204,12 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
       add(in.notes, doubt);
     }
   }
-  const motion::MendedMotion mended = mended_points(scene, m);
-  std::ranges::copy(reading_warnings(mended), std::back_inserter(in.notes));
-  // Before a reading that is far off spoils the head's pose.
-  motion::check_reach_beside_head(mended.motion);
+  const CleanedRecording cleaned = cleaned_recording(
+      m, of_weights(scene) && !scene.given.motion ? Readings::of_weights : Readings::measured);
+  append(in.notes, cleaned.warnings);
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
-  const motion::FilledMotion filled = motion::fill_gaps(mended.motion, gaps);
+  const motion::FilledMotion filled = motion::fill_gaps(cleaned.motion, gaps);
   if (!filled.gaps.empty())
     in.notes.push_back(make_note(
         "recording.gaps_filled",
@@ -242,8 +223,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   auto steady = still_head ? motion::with_still_head(filled.motion)
                            : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;
-  motion::check_reach(steady.motion);
-  add(in.notes, far_points_warning(steady.motion));
+  add(in.notes, check_steady(steady.motion));
   note_head(scene, steady, in);
   if (!still_head) add(in.notes, rigid_points_warning(scene, filled.motion));
   if (whole) {

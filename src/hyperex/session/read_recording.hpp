@@ -11,10 +11,6 @@ namespace hyperex::session {
 /// without weights or beside another face model.
 void check_rig(const scene::Scene& scene);
 
-/// Whether the recording is one of expressions' weights (motion.arkit, motion.openface), which are
-/// 0 at rest.
-bool of_weights(const scene::Scene& scene);
-
 /// Reads the motion that the scene's [motion] names, other than the embedded one. Throws
 /// InputError.
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in);

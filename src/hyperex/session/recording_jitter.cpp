@@ -8,7 +8,7 @@
 
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/motion/jitter.hpp"
-#include "hyperex/session/read_recording.hpp"
+#include "hyperex/scene/recording_file.hpp"
 
 namespace hyperex::session {
 namespace {

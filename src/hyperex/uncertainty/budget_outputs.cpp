@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv_cells.hpp"
@@ -36,8 +37,20 @@ std::string cell(double mm) {
 }
 
 std::string decided_of(const BudgetedFigure& figure) {
-  if (figure.kind == FigureKind::excursion) return "";
-  return figure.decided() ? "1" : "0";
+  const std::optional<bool> decided = figure.decided();
+  if (figure.kind == FigureKind::excursion || !decided) return "";
+  return *decided ? "1" : "0";
+}
+
+/// "jitter"; empty where all parts are known.
+std::string unknown_part(const BudgetedFigure& figure) {
+  return figure.jitter_known ? "" : metrics::name_of(ErrorPart::jitter);
+}
+
+/// NaN where it is not known.
+double part_mm(const BudgetedFigure& figure, ErrorPart part) {
+  return part == ErrorPart::jitter && !figure.jitter_known ? std::nan("")
+                                                           : figure.errors.half_width_95(part);
 }
 
 std::string column_of(ErrorPart part) {
@@ -46,9 +59,14 @@ std::string column_of(ErrorPart part) {
   return name + "_mm";
 }
 
-/// "jitter"; empty where no part is known.
-std::string largest_part(const BudgetedFigure& figure) {
+/// "mesh"; empty where no part is known.
+std::string largest_known_part(const BudgetedFigure& figure) {
   return figure.errors.variance() > 0 ? metrics::name_of(figure.errors.largest()) : "";
+}
+
+/// Empty also where a part that is not known may be the largest.
+std::string largest_part(const BudgetedFigure& figure) {
+  return figure.jitter_known ? largest_known_part(figure) : "";
 }
 
 Json json_of(const BudgetedFigure& figure) {
@@ -58,10 +76,13 @@ Json json_of(const BudgetedFigure& figure) {
   if (figure.side) json["side"] = side_of(figure);
   json["value_mm"] = figure.value_mm;
   json["half_width_95_mm"] = figure.half_width_95_mm();
-  if (figure.kind != FigureKind::excursion) json["decided"] = figure.decided();
+  json["known_half_width_95_mm"] = figure.known_half_width_95_mm();
+  if (figure.kind != FigureKind::excursion)
+    json["decided"] = figure.decided() ? Json(*figure.decided()) : Json();
   json["largest_part"] = largest_part(figure);
+  json["unknown_part"] = unknown_part(figure);
   for (const ErrorPart part : kParts)
-    json["parts_mm"][metrics::name_of(part)] = figure.errors.half_width_95(part);
+    json["parts_mm"][metrics::name_of(part)] = part_mm(figure, part);  // NaN is written as null
   return json;
 }
 
@@ -70,15 +91,21 @@ std::string rounded_mm(double mm) {
   return fmt::format("{:.1f}", std::round(10 * mm) / 10 + 0.0);
 }
 
-/// "-3.2 mm (95 %: -4.6 to -1.8; mostly muscles)"
+/// "-3.2 mm (95 %: -4.6 to -1.8; mostly muscles)", or "-3.2 mm (at least +- 1.4; mostly muscles),
+/// cannot tell" where the jitter is not known.
 std::string interval_words(const BudgetedFigure& figure) {
-  const double half = figure.half_width_95_mm();
-  const std::string part = largest_part(figure);
-  std::string words = fmt::format(
-      "{} mm (95 %: {} to {}{})", rounded_mm(figure.value_mm), rounded_mm(figure.value_mm - half),
-      rounded_mm(figure.value_mm + half), part.empty() ? "" : "; mostly " + part);
-  if (figure.kind != FigureKind::excursion && !figure.decided()) words += ", undecided";
-  return words;
+  const double half = figure.known_half_width_95_mm();
+  const std::string interval =
+      figure.jitter_known ? fmt::format("95 %: {} to {}", rounded_mm(figure.value_mm - half),
+                                        rounded_mm(figure.value_mm + half))
+                          : fmt::format("at least +- {}", rounded_mm(half));
+  const std::string part = largest_known_part(figure);
+  const std::string words = fmt::format("{} mm ({}{})", rounded_mm(figure.value_mm), interval,
+                                        part.empty() ? "" : "; mostly " + part);
+  if (figure.kind == FigureKind::excursion) return words;
+  const std::optional<bool> decided = figure.decided();
+  if (!decided) return words + ", cannot tell";
+  return *decided ? words : words + ", undecided";
 }
 
 std::string words_of_side(char side) {
@@ -91,15 +118,14 @@ void write_budget_csv(const std::filesystem::path& file, const FaceBudget& budge
   write_file_atomically(file, [&](std::ostream& out) {
     out << "variant,point,side,figure,value_mm,half_width_95_mm,decided,largest_part";
     for (const ErrorPart part : kParts) out << ',' << column_of(part);
-    out << '\n';
+    out << ",known_half_width_95_mm,unknown_part\n";
     for (const BudgetedFigure& figure : budget.figures) {
       fmt::print(out, "{},{},{},{},{},{},{},{}", io::in_quotes_where_needed(figure.variant),
                  io::in_quotes_where_needed(figure.point), side_of(figure), name_of(figure.kind),
                  cell(figure.value_mm), cell(figure.half_width_95_mm()), decided_of(figure),
                  largest_part(figure));
-      for (const ErrorPart part : kParts)
-        fmt::print(out, ",{}", cell(figure.errors.half_width_95(part)));
-      out << '\n';
+      for (const ErrorPart part : kParts) fmt::print(out, ",{}", cell(part_mm(figure, part)));
+      fmt::print(out, ",{},{}\n", cell(figure.known_half_width_95_mm()), unknown_part(figure));
     }
   });
 }
@@ -122,8 +148,8 @@ std::vector<std::string> corner_sentences(const FaceBudget& budget) {
     out.push_back("these intervals lack a part that could not be simulated: " + missing);
   if (!budget.jitter_known)
     out.push_back(
-        "the recording shows no jitter: unless its points are exact, these intervals are too "
-        "narrow (output.jitter_mm states a jitter)");
+        "the recording's jitter is not known, so that these intervals are not: each is wider than "
+        "its known parts make it (output.jitter_mm states the jitter, 0 for exact points)");
   return out;
 }
 

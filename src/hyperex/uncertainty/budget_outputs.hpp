@@ -10,8 +10,9 @@
 namespace hyperex::uncertainty {
 
 /// A row a figure: variant, point, side, figure, value_mm, half_width_95_mm, decided, largest_part,
-/// and half the width that each part alone would make. Throws InputError where the file cannot be
-/// written.
+/// half the width that each part alone would make, known_half_width_95_mm and unknown_part
+/// ("jitter", or empty). Where a part is not known, its cell, half_width_95_mm and largest_part are
+/// empty, and decided is 0 or empty. Throws InputError where the file cannot be written.
 void write_budget_csv(const std::filesystem::path& file, const FaceBudget& budget);
 
 /// For summary.json: what was assumed, the corners of the mouth, and sentences on them.

@@ -227,7 +227,7 @@ FaceBudget face_budget(const session::FaceSession& session, const simulate::RunC
   else
     out.assumed.push_back("the mirrored mesh");
   out.corners = corners_of(own.front());
-  out.jitter_known = own.front().jitter_m > 0 || scene.output.jitter_m == 0;
+  out.jitter_known = own.front().known.jitter;
   const auto miss = [&](const PerturbedFace& face, const std::exception& error) {
     out.missing.push_back(fmt::format("{}: {}", face.how, error.what()));
   };
@@ -249,9 +249,10 @@ FaceBudget face_budget(const session::FaceSession& session, const simulate::RunC
   for (std::size_t i = 0; i < others.places().size(); ++i) {
     const Place& place = others.places()[i];
     BudgetedFigure figure{
-        place.kind,    place.face == 0 ? "" : scene.variants.at(place.face - 1).name,
-        place.point,   place.side,
-        others.own(i), others.errors(i)};
+        place.kind,      place.face == 0 ? "" : scene.variants.at(place.face - 1).name,
+        place.point,     place.side,
+        others.own(i),   others.errors(i),
+        out.jitter_known};
     add_recording(pair_named(own.front(), place.point), place, figure.value_mm, figure.errors);
     add_inversion(scene, place, figure.value_mm, figure.errors);
     out.figures.push_back(std::move(figure));

@@ -3,6 +3,8 @@
 // How certain the excursions of a run are. The face is run again with whatever may be wrong with
 // it: docs/uncertainty.md.
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,12 +36,21 @@ struct BudgetedFigure {
   std::string point;    ///< of the pair, as PairExcursion::name
   char side = 0;        ///< 'R', 'L', or 0 for a difference
   double value_mm = 0;
-  metrics::ErrorBudget errors;
+  metrics::ErrorBudget errors;  ///< without the jitter's part where that is not known
+  bool jitter_known = true;     ///< 0 may be known
 
-  double half_width_95_mm() const { return errors.half_width_95(); }
+  /// NaN where the jitter is not known: the interval is wider than what is known makes it.
+  double half_width_95_mm() const {
+    return jitter_known ? known_half_width_95_mm() : std::numeric_limits<double>::quiet_NaN();
+  }
+  /// Of the parts that are known.
+  double known_half_width_95_mm() const { return errors.half_width_95(); }
   /// Whether the 95 % interval of a difference or a change excludes 0, by more than a run resolves.
-  bool decided() const {
-    return std::abs(value_mm) > half_width_95_mm() + 1e3 * metrics::kResolution_m;
+  /// Nothing where the known parts exclude it and the jitter is not known.
+  std::optional<bool> decided() const {
+    const double least_mm = known_half_width_95_mm() + 1e3 * metrics::kResolution_m;
+    if (!(std::abs(value_mm) > least_mm)) return false;
+    return jitter_known ? std::optional<bool>(true) : std::nullopt;
   }
 };
 
@@ -50,7 +61,7 @@ struct FaceBudget {
   /// Faces that could not be simulated, with the reason: their part is missing in the intervals.
   std::vector<std::string> missing;
   std::string corners;        ///< name of the pair of the mouth's corners; empty: not measured
-  bool jitter_known = false;  ///< else it counts as none, and the intervals are too narrow
+  bool jitter_known = false;  ///< of the recording, as each figure has it
 };
 
 /// Runs the face again with one assumption changed at a time, each by one standard deviation. The

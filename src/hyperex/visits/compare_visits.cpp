@@ -8,6 +8,7 @@
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/core/within_95.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/uncertain_pose.hpp"
 #include "hyperex/visits/scan_measures.hpp"
 
@@ -153,6 +154,29 @@ MeasureOverVisits over_visits(const Measure& measure, const std::vector<VisitEst
   return out;
 }
 
+/// Read and cleaned, by visit and recording.
+using Recordings = std::vector<std::vector<session::CleanedRecording>>;
+
+Recordings cleaned_recordings(const VisitsFile& file) {
+  Recordings out;
+  for (const VisitEntry& visit : file.visits) {
+    out.emplace_back();
+    for (const auto& recording : visit.recordings)
+      out.back().push_back(read_recording(recording, visit, file));
+  }
+  return out;
+}
+
+/// One set of points for all recordings where the file names none: a pose by other points would
+/// differ by more than the expression does.
+std::vector<std::string> still_points_of(const VisitsFile& file, const Recordings& recordings) {
+  if (!file.rigid_points.empty()) return {};
+  std::vector<const motion::Motion*> motions;
+  for (const auto& visit : recordings)
+    for (const session::CleanedRecording& recording : visit) motions.push_back(&recording.motion);
+  return motion::proposed_rigid_points(motions);
+}
+
 }  // namespace
 
 Estimate estimate(const Measure& measure, const MeasuredFace& face, double repetition_m) {
@@ -206,13 +230,16 @@ Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>
 
 Comparison compare_visits(const VisitsFile& file,
                           const std::function<void(std::size_t)>& progress) {
+  const Recordings recordings = cleaned_recordings(file);
+  const std::vector<std::string> still_points = still_points_of(file, recordings);
   std::vector<std::vector<MeasuredFace>> faces;
   std::size_t done = 0;
-  for (const VisitEntry& visit : file.visits) {
+  for (std::size_t i = 0; i < recordings.size(); ++i) {
     faces.emplace_back();
-    for (const auto& recording : visit.recordings) {
+    for (const session::CleanedRecording& recording : recordings[i]) {
       const MeasuredFace* first = done == 0 ? nullptr : &faces.front().front();
-      faces.back().push_back(measure_recording(recording, visit, file, first));
+      faces.back().push_back(
+          measure_recording(recording, file.visits[i], file, first, still_points));
       ++done;
       if (progress) progress(done);
     }

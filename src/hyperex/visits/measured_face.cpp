@@ -14,12 +14,9 @@
 #include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
 #include "hyperex/metrics/point_pairs.hpp"
-#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
-#include "hyperex/motion/stabilise.hpp"
-#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/session/plausible.hpp"
-#include "hyperex/session/reading_warnings.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 
 namespace hyperex::visits {
@@ -41,28 +38,35 @@ std::string with_file_name(std::string text, const std::string& path) {
 
 /// The motion without head pose, and the pose's errors where it was taken out.
 motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
+                                      const std::vector<std::string>& still_points,
                                       MeasuredFace& face) {
-  try {
-    motion::StabilisedMotion steady =
-        motion::stabilise(motion, {.rigid_points = visits.rigid_points});
-    motion::check_reach(steady.motion);
-    if (const auto far = session::far_points_warning(steady.motion))
-      face.remarks.push_back(with_file_name(far->text, motion.source));
-    face.head_known = true;
-    return steady;
-  } catch (const InputError& error) {
-    if (!visits.rigid_points.empty()) throw;
-    const auto* option = dynamic_cast<const motion::OptionError*>(&error);
-    const std::string why =
-        option ? option->sentence("rigid_points of the visits") : std::string(error.what());
+  motion::TriedPose tried;
+  if (!visits.rigid_points.empty())
+    tried.steady = motion::stabilise(motion, {.rigid_points = visits.rigid_points});
+  else
+    tried = motion::try_stabilise(motion, still_points, "rigid_points of the visits");
+  face.head_known = tried.why_not.empty();
+  if (!face.head_known) {
     face.remarks.push_back("head pose is not taken out and is in every figure: " +
-                           with_file_name(why, motion.source));
+                           with_file_name(tried.why_not, motion.source));
+    return tried.steady;
   }
-  return {.motion = motion,
-          .pose_points = {},
-          .shift_uncertainty_m = {},
-          .turn_uncertainty_rad = {},
-          .poses = {}};
+  if (!still_points.empty())
+    face.remarks.push_back(motion::still_points_sentence(still_points) +
+                           ", in every recording; rigid_points of the visits names others");
+  if (const auto far = session::check_steady(tried.steady.motion))
+    face.remarks.push_back(with_file_name(far->text, motion.source));
+  return tried.steady;
+}
+
+/// The points of the head by which it is compared between visits.
+std::vector<std::string> head_points(const VisitsFile& visits,
+                                     const std::vector<std::string>& still_points) {
+  if (!visits.rigid_points.empty()) return visits.rigid_points;
+  if (still_points.empty()) return motion::default_rigid_points();
+  std::vector<std::string> names;
+  for (const std::string& name : still_points) names.push_back(metrics::full_name(name));
+  return names;
 }
 
 void settle_jitter(const motion::Motion& steady, std::optional<double> stated_m,
@@ -123,11 +127,9 @@ double eye_distance(const io::Landmarks& rest) {
   return (rest.at("exocanthion_R") - rest.at("exocanthion_L")).norm();
 }
 
-/// The points of the head that both recordings measure.
+/// Those of `names` that both recordings measure.
 std::vector<std::string> common_head_points(const MeasuredFace& a, const MeasuredFace& b,
-                                            const VisitsFile& visits) {
-  const auto& names =
-      visits.rigid_points.empty() ? motion::default_rigid_points() : visits.rigid_points;
+                                            const std::vector<std::string>& names) {
   std::vector<std::string> common;
   for (const std::string& name : names)
     if (a.rest.contains(name) && b.rest.contains(name)) common.push_back(name);
@@ -142,9 +144,9 @@ Points places_of(const std::map<std::string, Vec3>& rest, const std::vector<std:
 }
 
 /// The axes of the first recording, carried by the skull to this one.
-void carry_axes(const MeasuredFace& first, const VisitsFile& visits, const fs::path& recording,
-                MeasuredFace& face) {
-  const std::vector<std::string> common = common_head_points(first, face, visits);
+void carry_axes(const MeasuredFace& first, const std::vector<std::string>& of_head,
+                const fs::path& recording, MeasuredFace& face) {
+  const std::vector<std::string> common = common_head_points(first, face, of_head);
   const Points there = places_of(first.rest, common), here = places_of(face.rest, common);
   face.state.axes.setConstant(kNan);
   if (common.size() < 3 || spread_off_line(there) < 0.05) {
@@ -172,9 +174,9 @@ void carry_axes(const MeasuredFace& first, const VisitsFile& visits, const fs::p
   face.axes_covariance = variance * normal.inverse();
 }
 
-void settle_axes(const MeasuredFace* first, const VisitsFile& visits, const fs::path& recording,
-                 MeasuredFace& face) {
-  if (first) return carry_axes(*first, visits, recording, face);
+void settle_axes(const MeasuredFace* first, const std::vector<std::string>& of_head,
+                 const fs::path& recording, MeasuredFace& face) {
+  if (first) return carry_axes(*first, of_head, recording, face);
   face.state.axes.setConstant(kNan);
   if (const auto frame = face::face_frame_of_corners(face.rest))
     face.state.axes = frame->face_from_scan();
@@ -247,10 +249,11 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
 }  // namespace
 
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
-                     std::optional<double> stated_jitter_m, const MeasuredFace* first) {
+                     std::optional<double> stated_jitter_m, const MeasuredFace* first,
+                     const std::vector<std::string>& still_points) {
   MeasuredFace face;
   const fs::path name = motion::named(motion);
-  const motion::StabilisedMotion steady = without_head(motion, visits, face);
+  const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
   const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
@@ -271,23 +274,29 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   if (!steady.poses.empty()) settle_pose(steady.poses[peak], rest_noise, peak_noise, face);
   settle_curves(columns, smooth, face);
   face.eye_distance_m = eye_distance(face.rest);
-  settle_axes(first, visits, name, face);
+  settle_axes(first, head_points(visits, still_points), name, face);
   settle_first_direction(first, face);
   note_size(first, name, face);
   return face;
 }
 
-MeasuredFace measure_recording(const fs::path& recording, const VisitEntry& visit,
-                               const VisitsFile& visits, const MeasuredFace* first) {
-  const motion::MendedMotion mended = motion::without_wild_samples(
+session::CleanedRecording read_recording(const fs::path& recording, const VisitEntry& visit,
+                                         const VisitsFile& visits) {
+  return session::cleaned_recording(
       motion::until(motion::read_motion(recording, visits.unit), visit.end_s, "end_s"));
-  motion::check_reach_beside_head(mended.motion);
-  MeasuredFace face = measure(mended.motion, visits, visit.jitter_m, first);
-  for (const Note& warning : session::reading_warnings(mended))
-    face.remarks.push_back(with_file_name(warning.text, mended.motion.source));
-  for (const auto& warning : {session::exchanged_warning(mended.motion, session::average_face()),
-                              session::timing_warning(mended.motion)})
-    if (warning) face.remarks.push_back(with_file_name(warning->text, mended.motion.source));
+}
+
+MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
+                               const VisitsFile& visits, const MeasuredFace* first,
+                               const std::vector<std::string>& still_points) {
+  const motion::Motion& motion = recording.motion;
+  std::vector<Note> warnings = recording.warnings;
+  MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points);
+  for (const auto& warning : {session::exchanged_warning(motion, session::average_face()),
+                              session::timing_warning(motion)})
+    add(warnings, warning);
+  for (const Note& warning : warnings)
+    face.remarks.push_back(with_file_name(warning.text, motion.source));
   return face;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/visits/measures.hpp"
 #include "hyperex/visits/read_visits.hpp"
 
@@ -45,11 +46,20 @@ struct MeasuredFace {
 /// is stated: a smoothed recording shows none. Throws InputError for what cannot be read or has no
 /// movement to measure.
 /// `first`: the first recording of the first visit, which defines the axes; null for itself.
+/// `still_points`: those that hold the head where the visits name none
+/// (motion::proposed_rigid_points of all recordings); empty: all landmarks.
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
-                     std::optional<double> stated_jitter_m, const MeasuredFace* first);
+                     std::optional<double> stated_jitter_m, const MeasuredFace* first,
+                     const std::vector<std::string>& still_points = {});
 
-/// Reads a recording of a visit (motion::read_motion), repairs single wild samples and measures it.
-MeasuredFace measure_recording(const std::filesystem::path& recording, const VisitEntry& visit,
-                               const VisitsFile& visits, const MeasuredFace* first);
+/// Reads a recording of a visit (motion::read_motion) and cleans it
+/// (session::cleaned_recording). Throws InputError.
+session::CleanedRecording read_recording(const std::filesystem::path& recording,
+                                         const VisitEntry& visit, const VisitsFile& visits);
+
+/// measure() of a recording, with what was found in its readings among the remarks.
+MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
+                               const VisitsFile& visits, const MeasuredFace* first,
+                               const std::vector<std::string>& still_points);
 
 }  // namespace hyperex::visits

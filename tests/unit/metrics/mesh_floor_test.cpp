@@ -145,6 +145,20 @@ TEST(ExcursionChange, BandIsWhatTheTwinsDifferByAndTheJitterThatTheChangeScales)
   EXPECT_TRUE(std::isnan(change_of(travels(10, 12, none, none), weak, Side::left).decided()));
 }
 
+TEST(ExcursionChange, HasNoBandWhereTheJitterIsNotKnown) {
+  PairExcursion base = travels(10, 12, 10.5, 12.25), weak = travels(6, 12, 6.8, 12.25);
+  base.known.jitter = weak.known.jitter = false;
+  const ExcursionChange large = change_of(base, weak, Side::left);
+  EXPECT_TRUE(std::isnan(large.band_mm));
+  EXPECT_NEAR(large.known_band_mm, 0.4, 1e-12);
+  EXPECT_TRUE(std::isnan(large.decided())) << "jitter may have made it";
+  weak.left_side.excursion_mm = 9.7;
+  weak.twin_left_mm = 10.6;
+  EXPECT_EQ(change_of(base, weak, Side::left).decided(), 0) << "the mesh alone may have made it";
+  EXPECT_EQ(change_of(base, weak, Side::right).decided(), 0) << "nothing changes";
+  EXPECT_NEAR(change_of(base, weak, Side::right).band_mm, 0.1, 1e-12);
+}
+
 TEST(MeshFloor, KeepsTheTwinsExcursionsForTheSideThatTheyAreTheMirrorImageOf) {
   const auto run = ten_points([](auto& n) { return Vec3(smile_of(n)); });
   const auto twin =

@@ -38,6 +38,45 @@ TEST(StillPoints, AreThoseThatKeepTheirDistances) {
   EXPECT_THAT(find_still_points(nodding(0.5e-3)), ElementsAre("top", "left", "right", "nose"));
 }
 
+/// The same with one more point, "ear", that moves by `ear_m`.
+Motion nodding_with_ear(double ear_m) {
+  Motion motion = nodding();
+  motion.names.push_back("ear");
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    Points& at = motion.positions[k];
+    at.conservativeResize(7, 3);
+    at.row(6) = at.row(0) + Eigen::RowVector3d(ear_m * double(k) / 20, 0, 0);
+  }
+  return motion;
+}
+
+TEST(StillPoints, OfSeveralRecordingsKeepTheirDistancesInEach) {
+  const Motion still = nodding_with_ear(0), moving = nodding_with_ear(5e-3);
+  EXPECT_THAT(find_still_points(still), ElementsAre("top", "left", "right", "nose", "ear"));
+  for (const auto& both : {std::vector{&still, &moving}, std::vector{&moving, &still}})
+    EXPECT_THAT(find_still_points(both), ElementsAre("top", "left", "right", "nose"));
+  // On another day the markers lie elsewhere, and one point is not measured.
+  Motion later = nodding();
+  for (Points& at : later.positions) at *= 1.2;
+  EXPECT_THAT(find_still_points(std::vector<const Motion*>{&still, &later}),
+              ElementsAre("top", "left", "right", "nose"));
+}
+
+TEST(StillPoints, AreProposedForAllWhereOneLacksTheUsualPoints) {
+  const Motion without = nodding_with_ear(0);
+  Motion with = without;
+  for (const char* name : {"ibug68_36", "ibug68_39", "ibug68_42"}) {
+    with.names.push_back(name);
+    for (Points& at : with.positions) {
+      at.conservativeResize(at.rows() + 1, 3);
+      at.row(at.rows() - 1).setZero();
+    }
+  }
+  EXPECT_THAT(proposed_rigid_points(std::vector<const Motion*>{&with, &with}), IsEmpty());
+  EXPECT_THAT(proposed_rigid_points(std::vector<const Motion*>{&with, &without}),
+              ElementsAre("top", "left", "right", "nose", "ear"));
+}
+
 TEST(StillPoints, ThreeAreTooFewToBeSure) {
   EXPECT_THAT(find_still_points(nodding(5e-3)), IsEmpty());
 }

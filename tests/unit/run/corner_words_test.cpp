@@ -58,6 +58,19 @@ TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
               HasSubstr("goes 5.2 mm the other way"));
 }
 
+TEST(CornerWords, AChangeIsNotDecidedWhereTheJitterIsNotKnown) {
+  Json summary = summary_of({9.6, 6.2, 6.15}, {8.3, 8.0, 8.0}, {"R"});
+  Json& variant = summary["variants"]["table"][1];
+  variant["jitter_known"] = false;
+  variant["commissure_R_band_mm"] = variant["commissure_L_band_mm"] = nullptr;
+  variant["commissure_R_decided"] = nullptr;
+  variant["commissure_L_decided"] = 0;
+  const std::string lines = variant_lines(summary);
+  EXPECT_THAT(lines, HasSubstr("moves 3.4 mm less (cannot tell: the recording's jitter is not "
+                               "known)"));
+  EXPECT_THAT(lines, HasSubstr("left 8.3 to 8.0 mm, undecided"));
+}
+
 // 9.64 and 9.66 would be 9.6 and 9.7 if each were rounded separately.
 TEST(CornerWords, RoundsOnceSoThatAdjacentFiguresAgree) {
   const Json summary = summary_of({9.64, 9.66, 9.66}, {8.26, 6.24, 6.24}, Json::array());

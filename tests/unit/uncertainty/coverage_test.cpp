@@ -222,7 +222,7 @@ void expect_coverage(int patients, simulate::Strain strain) {
       squares += error * error / patients;
       errors += one[f].figure.errors;
       held += std::abs(error) <= one[f].figure.half_width_95_mm();
-      decided += one[f].figure.decided();
+      decided += one[f].figure.decided() == true;
     }
     std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %.1f %% | %d | %s |\n",
                 name_of(all.front()[f].figure).c_str(), truth, half, sum, std::sqrt(squares),

@@ -138,7 +138,8 @@ TEST(FaceBudget, IsWrittenAsATableAndInWords) {
   EXPECT_THAT(table, testing::StartsWith(
                          "variant,point,side,figure,value_mm,half_width_95_mm,decided,"
                          "largest_part,jitter_mm,head_pose_mm,landmarks_mm,mesh_mm,muscles_mm,"
-                         "inversion_mm,stiffness_mm,law_mm,repetition_mm\n"));
+                         "inversion_mm,stiffness_mm,law_mm,repetition_mm,"
+                         "known_half_width_95_mm,unknown_part\n"));
   EXPECT_THAT(table, testing::HasSubstr("\n\"stiff, right\",cheilion,R,change,"));
   EXPECT_EQ(std::ranges::count(table, '\n'), 1 + int(face.budget().figures.size()));
   const auto sentences = corner_sentences(face.budget());
@@ -151,6 +152,38 @@ TEST(FaceBudget, IsWrittenAsATableAndInWords) {
   const auto json = budget_json(face.budget());
   EXPECT_EQ(json["corners_of_the_mouth"].size(), 7u);
   EXPECT_EQ(json["sentences"].size(), 7u);
+}
+
+TEST(FaceBudget, CountsNoUnknownJitterAsNone) {
+  BudgetedFigure change{FigureKind::change, "weak", "cheilion", 'R', -3, {}, false};
+  change.errors.add(ErrorPart::mesh, 0.25);
+  EXPECT_TRUE(std::isnan(change.half_width_95_mm()));
+  EXPECT_NEAR(change.known_half_width_95_mm(), 1.96 * 0.5, 1e-3);
+  EXPECT_EQ(change.decided(), std::nullopt);
+  BudgetedFigure small = change;
+  small.value_mm = -0.9;
+  EXPECT_EQ(small.decided(), false) << "what is known is enough to doubt it";
+  BudgetedFigure exact = change;
+  exact.jitter_known = true;
+  EXPECT_EQ(exact.decided(), true);
+  const FaceBudget budget{
+      .figures = {change, small}, .assumed = {}, .missing = {}, .corners = "cheilion"};
+  const TestFolder folder;
+  write_budget_csv(folder / "error_budget.csv", budget);
+  const std::string table = read_file(folder / "error_budget.csv");
+  EXPECT_THAT(table, testing::HasSubstr("\nweak,cheilion,R,change,-3,,,,,0,0,0.97998"));
+  EXPECT_THAT(table, testing::HasSubstr("\nweak,cheilion,R,change,-0.9,,0,,,0,0,0.97998"));
+  EXPECT_THAT(table, testing::HasSubstr(",0.979982,jitter\n"));
+  const auto sentences = corner_sentences(budget);
+  ASSERT_EQ(sentences.size(), 3u);
+  EXPECT_THAT(sentences[0], testing::HasSubstr("changes by -3.0 mm (at least +- 1.0; mostly mesh), "
+                                               "cannot tell"));
+  EXPECT_THAT(sentences[1], testing::EndsWith("undecided"));
+  EXPECT_THAT(sentences[2], testing::HasSubstr("jitter is not known"));
+  const auto json = budget_json(budget)["corners_of_the_mouth"][0];
+  EXPECT_THAT(json.dump(), testing::HasSubstr("\"half_width_95_mm\":null"));
+  EXPECT_TRUE(json["decided"].is_null());
+  EXPECT_EQ(json["unknown_part"], "jitter");
 }
 
 }  // namespace

@@ -88,6 +88,9 @@ export const farthestMm = (corners: Corners, side: Side): number => (side === 'l
 const rowOf = (replay: Replay, face: number): VariantRow | undefined =>
   variantsOf(replay)?.table.find(({ name }) => name === replay.faces[face].name);
 
+/** Whether a face's band stays unknown, as the recording's jitter is. */
+export const jitterUnknown = (replay: Replay, face: number): boolean => rowOf(replay, face)?.jitter_known === false;
+
 /** The error of a variant's change against base due to mesh and jitter, mm; null: unknown. */
 export function changeBandMm(replay: Replay, face: number, side: Side): number | null {
   const band = rowOf(replay, face)?.[`commissure_${letterOf[side]}_band_mm`];
@@ -112,6 +115,8 @@ export interface CornerChange {
   weaker: boolean;
   bandMm: number | null;
   undecided: boolean;
+  /** The recording's jitter is not known, nor is the band then, and the change is larger than what is known of it. */
+  cannotTell: boolean;
 }
 
 /** A distance from rest has no direction, and so the displacement along base's own path is compared
@@ -129,10 +134,13 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const byMm = unchanged ? 0 : roundedMm((sameWay ? toMm : roundedMm(alongMm)) - fromMm);
   const bandMm = changeBandMm(replay, face, side);
   const weak = row?.weaker_sides;
+  const undecided = bandMm === null ? sameWay && row?.[`commissure_${letterOf[side]}_decided`] === 0
+    : Math.abs(sameWay ? to - from : byMm) < bandMm;
   return {
     side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: sameWay ? to - from : byMm, alongMm: roundedMm(alongMm), sameWay, bandMm,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
-    undecided: bandMm !== null && Math.abs(sameWay ? to - from : byMm) < bandMm,
+    undecided,
+    cannotTell: bandMm === null && !undecided && jitterUnknown(replay, face),
   };
 }
 
@@ -160,13 +168,14 @@ export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
 
 /** "is dragged 2.1 ± 0.4 mm farther than in base" */
 function changeFigures(change: CornerChange): string {
-  const { byMm, exactMm, bandMm, undecided } = change;
+  const { byMm, exactMm, bandMm, undecided, cannotTell } = change;
   if (byMm === 0) return 'as base';
   if (undecided) {
-    const { own, limit } = heldAgainst(byMm, exactMm, bandMm!);
-    return `undecided: ${own.replace(' mm', '')} ± ${limit} ${byMm < 0 ? 'less' : 'more'} than base`;
+    const { own, limit } = heldAgainst(byMm, exactMm, bandMm ?? 0);
+    const figure = bandMm === null ? mm(Math.abs(byMm)) : `${own.replace(' mm', '')} ± ${limit}`;
+    return `undecided: ${figure} ${byMm < 0 ? 'less' : 'more'} than base`;
   }
-  return `${changeSentence(change)}, ±${bandMm === null ? ' not known' : ` ${bandWords(change)}`}`;
+  return `${changeSentence(change)}, ±${bandMm === null ? ` not known${cannotTell ? ', as the jitter is not' : ''}` : ` ${bandWords(change)}`}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */

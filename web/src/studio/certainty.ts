@@ -84,9 +84,11 @@ export class Certainty {
   }
 }
 
-function sentence({ figure, side, value_mm, half_width_95_mm, decided, largest_part }: BudgetFigure): string {
+function sentence({ figure, side, value_mm, half_width_95_mm, known_half_width_95_mm, decided, largest_part }: BudgetFigure): string {
   const value = value_mm ?? 0;
   const what = figure === 'difference' ? words.certaintyApart : words.certaintyOf(words.sideNames[side ?? 'R'], figure === 'change');
-  const interval = words.certaintyInterval(fixed(value, 1), fixed(value - half_width_95_mm, 1), fixed(value + half_width_95_mm, 1), largest_part);
-  return `${what} ${interval}${decided === false ? `, ${words.certaintyUndecided}` : ''}`;
+  const interval = half_width_95_mm === null ? words.certaintyAtLeast(fixed(value, 1), fixed(known_half_width_95_mm, 1))
+    : words.certaintyInterval(fixed(value, 1), fixed(value - half_width_95_mm, 1), fixed(value + half_width_95_mm, 1), largest_part);
+  const verdict = decided === false ? words.certaintyUndecided : decided === null ? words.certaintyCannotTell : '';
+  return [`${what} ${interval}`, verdict].filter(Boolean).join(', ');
 }

@@ -8,13 +8,13 @@ import { words } from './words';
 const unsureMm = 0.5;
 
 export function changeLine(change: CornerChange): HTMLElement {
-  const { byMm, exactMm, bandMm, sameWay, weaker, undecided } = change;
-  const sure = bandMm === null ? Math.abs(byMm) >= unsureMm : !undecided;
+  const { byMm, exactMm, bandMm, sameWay, weaker, undecided, cannotTell } = change;
+  const sure = !undecided && !cannotTell && (bandMm !== null || Math.abs(byMm) >= unsureMm);
   const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
   const text = words.againstBase(by, byMm > 0);
   const how = !sameWay ? words.alongBase : sure && weaker && byMm > 0 ? words.dragged : '';
-  const parts = byMm === 0 ? [words.asBase]
-    : [bandMm !== null && !sure ? words.undecidedChange(text) : text, bandMm === null ? '' : words.band(bandWords(change)), how].filter(Boolean);
+  const band = cannotTell ? words.changeCannotTell : bandMm === null ? '' : words.band(bandWords(change));
+  const parts = byMm === 0 ? [words.asBase] : [undecided ? words.undecidedChange(text) : text, band, how].filter(Boolean);
   const small = element('small', '', byMm !== 0 && sure ? 'change' : 'same');
   // A line breaks between the parts, not inside of them.
   parts.forEach((part, i) => small.append(...(i > 0 ? [' '] : []), element('span', part)));

@@ -5,7 +5,7 @@ import { TimeChart } from '../charts/time_chart';
 import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { sides, type Side } from '../page/side_words';
-import { apartAgainstFloor, changeBandMm, cornerChange, cornersOf, farthestMm, mm, sameMm, valueAt, type Corners } from '../replay/corners';
+import { apartAgainstFloor, changeBandMm, cornerChange, cornersOf, farthestMm, jitterUnknown, mm, sameMm, valueAt, type Corners } from '../replay/corners';
 import { cornerCurves } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
 import { disagreement, plainFigures } from '../replay/curves/symmetry_words';
@@ -196,7 +196,8 @@ export class FiguresPanel {
   }
 
   private bandsKnown(): boolean {
-    return this.state.source.replay.faces.every((_, i) => i === 0 || changeBandMm(this.state.source.replay, i, 'left') !== null);
+    const { replay } = this.state.source;
+    return replay.faces.every((_, i) => i === 0 || jitterUnknown(replay, i) || changeBandMm(replay, i, 'left') !== null);
   }
 
   private differsMost(i: number): string {

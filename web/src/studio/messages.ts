@@ -68,9 +68,13 @@ export interface BudgetFigure {
   /** Absent for a difference, which is left less right. */
   side?: 'R' | 'L';
   value_mm: number | null;
-  half_width_95_mm: number;
-  /** Of a difference or a change: whether its interval excludes 0. */
-  decided?: boolean;
+  /** Null where a part is not known: the interval is wider than the known parts make it. */
+  half_width_95_mm: number | null;
+  /** Of the parts that are known. */
+  known_half_width_95_mm: number;
+  /** Of a difference or a change: whether its interval excludes 0. Null: cannot tell, as a part is not known. */
+  decided?: boolean | null;
+  /** Empty where a part is not known. */
   largest_part: string;
 }
 

@@ -377,12 +377,13 @@ export interface MotionEvent {
 export interface BudgetEvent {
   /**
    * of base, then of each variant: variant (absent for base), figure (excursion, difference or change),
-   * side, value_mm, half_width_95_mm, decided, largest_part
+   * side, value_mm, half_width_95_mm and decided (null: not known), known_half_width_95_mm, largest_part,
+   * unknown_part
    */
   figures: unknown;
   /** a sentence for each error that could not be simulated */
   missing: unknown;
-  /** whether the recording shows its jitter */
+  /** whether the jitter of the recording is known */
   jitter_known: boolean;
   /** the scene that it is of */
   text: string;

@@ -58,6 +58,14 @@ interface Verdict {
   undecided: boolean;
 }
 
+const cannotTellWords = 'cannot tell, as the jitter of the recording is not known';
+
+/** " (± 0.7 mm, undecided)"; empty where nothing is known. */
+function bandClause(change: CornerChange): string {
+  const parts = [change.bandMm === null ? '' : `± ${bandWords(change)}`, change.undecided ? 'undecided' : '', change.cannotTell ? cannotTellWords : ''].filter(Boolean);
+  return parts.length > 0 ? ` (${parts.join(', ')})` : '';
+}
+
 /** The change by a variant, and its side. If a weak side is dragged farther, the other side must not appear to be the
  *  weak one. Null for base. */
 function changeVerdict(replay: Replay, face: number): Verdict | null {
@@ -65,7 +73,8 @@ function changeVerdict(replay: Replay, face: number): Verdict | null {
   if (!change) return null;
   if (change.byMm === 0) return { text: 'both corners go as in base', undecided: false };
   const text = `${change.side} ${changeSentence(change)}`;
-  if (change.undecided) return { text: `${text}: undecided (below ${bandWords(change)})`, undecided: true };
+  if (change.undecided) return { text: `${text}: undecided${change.bandMm === null ? '' : ` (below ${bandWords(change)})`}`, undecided: true };
+  if (change.cannotTell) return { text: `${text}: ${cannotTellWords}`, undecided: true };
   return { text: change.bandMm === null ? text : `${text} (± ${bandWords(change)})`, undecided: false };
 }
 
@@ -131,8 +140,7 @@ function againstBase(replay: Replay, face: number, row: VariantRow | undefined):
   if (!change) return '';
   const path = onTheWay(row, change.byMm);
   if (Math.abs(change.byMm) < sameMm) return path && `greatest excursions as in base; ${path}`;
-  const band = change.bandMm === null ? '' : ` (± ${bandWords(change)}${change.undecided ? ', undecided' : ''})`;
-  return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${band}${path && `; ${path}`}`;
+  return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${bandClause(change)}${path && `; ${path}`}`;
 }
 
 /** Where to see the effect of tissue if the corners are driven points. */

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/cleaned_recording.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "hyperex/motion/wild_samples.hpp"
+#include "hyperex/session/reading_warnings.hpp"
+
+namespace hyperex::session {
+namespace {
+
+/// The motion as it was, with its wild readings as jumps. The weights were mended before.
+motion::MendedMotion only_reported(motion::MendedMotion mended, const motion::Motion& recorded) {
+  for (const motion::WildSample& wild : mended.wild)
+    if (wild.off_m > motion::kWildJump_m) mended.jumps.push_back(wild);
+  std::ranges::stable_sort(mended.jumps, {}, &motion::WildSample::sample);
+  for (auto* readings : {&mended.wild, &mended.zeros, &mended.lone}) readings->clear();
+  mended.motion = recorded;
+  return mended;
+}
+
+}  // namespace
+
+CleanedRecording cleaned_recording(const motion::Motion& recorded, Readings readings) {
+  motion::MendedMotion mended = motion::without_wild_samples(recorded);
+  if (readings == Readings::of_weights) mended = only_reported(std::move(mended), recorded);
+  CleanedRecording out{{}, reading_warnings(mended)};
+  out.motion = std::move(mended.motion);
+  motion::check_reach_beside_head(out.motion);
+  return out;
+}
+
+std::optional<Note> check_steady(const motion::Motion& steady) {
+  motion::check_reach(steady);
+  return far_points_warning(steady);
+}
+
+}  // namespace hyperex::session
