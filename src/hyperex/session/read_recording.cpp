@@ -164,8 +164,9 @@ void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady
 motion::MendedMotion mended_points(const scene::Scene& scene, const motion::Motion& m) {
   motion::MendedMotion out = motion::without_wild_samples(m);
   if (scene.given.motion || !of_weights(scene)) return out;
-  for (const motion::WildSample& wild : out.wild)
-    if (wild.off_m > motion::kWildJump_m) out.jumps.push_back(wild);
+  out.jumps.insert(out.jumps.end(), out.wild.begin(), out.wild.end());
+  std::erase_if(out.jumps,
+                [](const motion::WildSample& jump) { return jump.off_m <= motion::kWildJump_m; });
   std::ranges::stable_sort(out.jumps, {}, &motion::WildSample::sample);
   for (auto* readings : {&out.wild, &out.zeros, &out.lone}) readings->clear();
   out.motion = m;
