@@ -51,8 +51,8 @@ constexpr NoteKind kKinds[] = {
     "more. The readings were left out and interpolated."),
   warning("recording.weight_jumps", "motion.arkit",
     "A weight jumps by more than 0.3 where this may be real: in one reading at an end of the "
-    "recording, or for 0.2 to 0.3 s; below 24 Hz in one reading by more, in proportion. The readings "
-    "were kept."),
+    "recording, or for 0.2 to 0.3 s. Below 24 Hz one reading counts that jumps by more, in "
+    "proportion. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
