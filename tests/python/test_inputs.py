@@ -76,9 +76,15 @@ class WildReadings(unittest.TestCase):
             mended = self.prepared(0.3, 8, 9)
         self.assertLess(abs(self.farthest_mm(mended) - sound), 2)
 
-    def test_four_are_refused(self):
+    def test_so_are_four(self):
+        sound = self.farthest_mm(self.prepared(0, 0, 0))
+        with self.assertWarnsRegex(UserWarning, "4 such readings"):
+            mended = self.prepared(0.01, 6, 10)
+        self.assertLess(abs(self.farthest_mm(mended) - sound), 2)
+
+    def test_seven_are_refused(self):
         with self.assertRaisesRegex(hyperex.InputError, "expected at most"):
-            self.prepared(0.3, 6, 10)
+            self.prepared(0.3, 6, 13)
 
     def test_a_point_that_goes_too_far_is_named(self):
         with self.assertWarnsRegex(UserWarning, "cheilion_L: 38 mm"):

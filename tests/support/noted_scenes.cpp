@@ -71,7 +71,7 @@ void let_a_marker_jump(const fs::path& folder) {
 
 void let_a_marker_stay_away(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
-    for (std::size_t k = 8; k < 12; ++k) m.positions[k](m.index_of("cheilion_L"), 2) += 0.03;
+    for (std::size_t k = 8; k < 15; ++k) m.positions[k](m.index_of("cheilion_L"), 2) += 0.03;
   });
 }
 

@@ -31,7 +31,8 @@ constexpr NoteKind kKinds[] = {
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
     "than 0.6 m/s. At 24 samples a second and more, 6 mm in one reading count while the points "
-    "beside it stay. The readings were left out and interpolated."),
+    "beside it stay. So do 5 mm for up to 0.2 s, and two points that exchange their places. The "
+    "readings were left out and interpolated."),
   warning("recording.zeros", "motion.file",
     "Readings of (0, 0, 0) of a point that is never within 20 mm of there otherwise: some systems "
     "write this for a marker that they do not see. They were taken as missing."),
@@ -40,16 +41,18 @@ constexpr NoteKind kKinds[] = {
     "stay, in a recording of less than 24 samples a second. The readings were kept."),
   warning("recording.jumps", "motion.file",
     "A point moves by more than 20 mm and faster than 0.6 m/s from one reading to the next, and "
-    "stays away too long to be mended. The readings were kept."),
+    "stays away too long to be mended. At 24 samples a second and more, 5 mm count if it jumps back "
+    "within 0.3 s while the points beside it stay. The readings were kept."),
   warning("recording.far_points", "motion.file",
     "A point goes farther from its first place than this part of a face can: corners of the mouth "
     "38 mm, upper lip 30, brows 25, nose and eyes 20, lower lip and chin 75."),
   warning("recording.wild_weights", "motion.arkit",
-    "A weight, not of eyes or tongue, jumps by more than 0.3 and comes back in one reading, at 24 Hz "
-    "or more. The reading was left out and interpolated."),
+    "A weight, not of eyes or tongue, jumps by more than 0.3 and back within 0.2 s, at 24 Hz or "
+    "more. The readings were left out and interpolated."),
   warning("recording.weight_jumps", "motion.arkit",
-    "A weight jumps in a single reading that may be real: by more than 0.3 at an end of the "
-    "recording, or below 24 Hz by more, in proportion. The reading was kept."),
+    "A weight jumps by more than 0.3 where this may be real: in one reading at an end of the "
+    "recording, or for 0.2 to 0.3 s. Below 24 Hz one reading counts that jumps by more, in "
+    "proportion. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",

@@ -11,6 +11,7 @@
 
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/motion/stays.hpp"
 
 namespace hyperex::expression {
 namespace {
@@ -73,11 +74,31 @@ std::optional<double> jump_of(const Track& track, std::size_t i) {
   return alone ? std::optional(off) : std::nullopt;
 }
 
-/// The value at the time of reading i on the line through the readings beside it.
-double between_neighbours(const Track& track, std::size_t i) {
+/// Several readings at a wrong weight. A single one is for jump_of().
+std::vector<motion::Stay> stays_of(const Track& track) {
+  const auto at = [&](std::size_t i) { return Eigen::RowVector3d(track.weight[i], 0, 0); };
+  const auto is_longer = [](const motion::Stay& stay) { return stay.after > stay.before + 2; };
+  return motion::stays_of(at, track.time_s, {kWildWeight, kSlack * kWildWeight_s, is_longer});
+}
+
+/// Reading i on the line in time through two others.
+double between(const Track& track, std::size_t before, std::size_t i, std::size_t after) {
   const auto& [sample, t, w] = track;
-  const double share = (t[i] - t[i - 1]) / (t[i + 1] - t[i - 1]);
-  return (1 - share) * w[i - 1] + share * w[i + 1];
+  const double share = (t[i] - t[before]) / (t[after] - t[before]);
+  return (1 - share) * w[before] + share * w[after];
+}
+
+/// Mends brief stays of a weight, and names longer ones.
+void settle_stays(const Track& track, std::size_t shape, BlendShapes& shapes, MendedShapes& out) {
+  for (const motion::Stay& stay : stays_of(track)) {
+    const bool mended = motion::is_mended(stay, track.time_s);
+    for (std::size_t i = stay.before + 1; i < stay.after; ++i) {
+      const double right = between(track, stay.before, i, stay.after);
+      (mended ? out.wild : out.doubtful)
+          .push_back({track.sample[i], shape, track.weight[i] - right});
+      if (mended) shapes.weights(Eigen::Index(track.sample[i]), Eigen::Index(shape)) = right;
+    }
+  }
 }
 
 /// The place of each reading, as "weights.csv:22, mouthSmileLeft at 0.333 s: by +0.65".
@@ -119,8 +140,9 @@ MendedShapes without_wild_weights(BlendShapes shapes) {
       const std::size_t k = track.sample[i];
       const bool real = is_at_end(track, i) || step_s(track, i) > kSlack * kWildWeight_s;
       (real ? out.doubtful : out.wild).push_back({k, c, *off});
-      if (!real) shapes.weights(Eigen::Index(k), Eigen::Index(c)) = between_neighbours(track, i);
+      if (!real) shapes.weights(Eigen::Index(k), Eigen::Index(c)) = between(track, i - 1, i, i + 1);
     }
+    settle_stays(track, c, shapes, out);
   }
   const auto place = [](const WildWeight& w) { return std::pair(w.sample, w.shape); };
   std::ranges::sort(out.wild, {}, place);
@@ -133,8 +155,8 @@ std::string wild_weights_sentence(const MendedShapes& mended) {
   if (mended.wild.empty()) return "";
   const auto places = places_of(mended.shapes, mended.wild);
   return fmt::format(
-      "a weight jumps away and back within one reading, which no face does; {} such reading{} left "
-      "out and interpolated: {}",
+      "a weight jumps away and soon back, which no face does; {} such reading{} left out and "
+      "interpolated: {}",
       places.size(), places.size() > 1 ? "s were" : " was", first_of(places));
 }
 
@@ -142,10 +164,9 @@ std::string doubtful_weights_sentence(const MendedShapes& mended) {
   if (mended.doubtful.empty()) return "";
   const auto places = places_of(mended.shapes, mended.doubtful);
   return fmt::format(
-      "a weight jumps in a single reading, at an end of the recording or where readings are more "
-      "than 1/24 s apart; {} such reading{} kept, so correct what is wrong or leave its cell "
-      "empty: "
-      "{}",
+      "a weight jumps where a face could: at an end of the recording, between readings more than "
+      "1/24 s apart, or away for more than 0.2 s; {} such reading{} kept, so correct what is wrong "
+      "or leave its cell empty: {}",
       places.size(), places.size() > 1 ? "s were" : " was", first_of(places));
 }
 

@@ -10,6 +10,8 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/motion/brief_stays.hpp"
+#include "hyperex/motion/point_steps.hpp"
 
 namespace hyperex::motion {
 namespace {
@@ -127,23 +129,6 @@ std::vector<WildSample> without_zeros(Motion& m) {
   return zeros;
 }
 
-/// Between two readings of a point; NaN where one is missing.
-double way_m(const std::vector<Points>& at, std::size_t a, std::size_t b, Eigen::Index p) {
-  return (at[b].row(p) - at[a].row(p)).norm();
-}
-
-/// From a reading to the middle of those before and after it; NaN where one is missing.
-double bend_m(const std::vector<Points>& at, std::size_t k, Eigen::Index p) {
-  return (at[k].row(p) - 0.5 * (at[k - 1].row(p) + at[k + 1].row(p))).norm();
-}
-
-double usual_bend_m(const std::vector<Points>& at, Eigen::Index p) {
-  std::vector<double> all;
-  for (std::size_t k = 1; k + 1 < at.size(); ++k)
-    if (const double bend = bend_m(at, k, p); std::isfinite(bend)) all.push_back(bend);
-  return median(all);
-}
-
 bool goes_and_returns(const std::vector<Points>& at, std::size_t k, Eigen::Index p,
                       double least_m) {
   const double jump_m = std::min(way_m(at, k - 1, k, p), way_m(at, k, k + 1, p));
@@ -157,21 +142,15 @@ bool goes_and_returns(const std::vector<Points>& at, std::size_t k, Eigen::Index
 
 /// Whether one of the four points beside this one does a third of the same.
 bool is_joined(const std::vector<Points>& at, std::size_t k, Eigen::Index p) {
-  std::vector<std::pair<double, Eigen::Index>> beside;
-  for (Eigen::Index q = 0; q < at[k].rows(); ++q)
-    if (const double far_m = (at[k - 1].row(q) - at[k - 1].row(p)).norm();
-        q != p && std::isfinite(far_m))
-      beside.emplace_back(far_m, q);
-  std::ranges::sort(beside);
-  if (beside.size() > 4) beside.resize(4);
-  return std::ranges::any_of(beside, [&, bend = bend_m(at, k, p)](const auto& point) {
-    return bend_m(at, k, point.second) > bend / 3;
-  });
+  return std::ranges::any_of(
+      points_beside(at[k - 1], p),
+      [&, bend = bend_m(at, k, p)](Eigen::Index other) { return bend_m(at, k, other) > bend / 3; });
 }
 
-std::vector<WildSample> lone_readings(const Motion& m, double least_m) {
+/// `at`: the positions of the motion without the shift of the head.
+std::vector<WildSample> lone_readings(const Motion& m, const std::vector<Points>& at,
+                                      double least_m) {
   std::vector<WildSample> lone;
-  const std::vector<Points> at = without_shift(m);
   for (std::size_t k = 1; k + 1 < at.size(); ++k)
     for (Eigen::Index p = 0; p < at[k].rows(); ++p)
       if (goes_and_returns(at, k, p, least_m) && !is_joined(at, k, p) &&
@@ -200,6 +179,37 @@ std::vector<WildSample> jumps_of(const Motion& m) {
         jumps.push_back({m.names[p], k, far_m});
     }
   return jumps;
+}
+
+/// Mends lone readings and brief stays, for recordings of at least 24 samples a second. The ways
+/// there and back of stays that are too long for it are returned.
+std::vector<WildSample> mend_lone_and_stays(MendedMotion& out) {
+  const Motion& m = out.motion;
+  const std::vector<Points> at = without_shift(m);
+  std::vector<WildSample> found = lone_readings(m, at, kLoneJump_m), kept;
+  for (const auto& [p, stay] : brief_stays(at, m.time_s, m.names)) {
+    const std::string& name = m.names[std::size_t(p)];
+    if (!is_mended(stay, m.time_s))
+      for (const std::size_t k : {stay.before + 1, stay.after})
+        kept.push_back({name, k, way_m(at, k - 1, k, p)});
+    else
+      for (std::size_t k = stay.before + 1; k < stay.after; ++k)
+        found.push_back({name, k, off_line(path_of(at, p), m.time_s, stay, k)});
+  }
+  mend(found, out.motion);
+  out.wild.insert(out.wild.end(), found.begin(), found.end());
+  std::ranges::stable_sort(out.wild, {}, &WildSample::sample);
+  return kept;
+}
+
+/// Adds those that are not among the jumps already.
+void add_jumps(const std::vector<WildSample>& more, std::vector<WildSample>& jumps) {
+  for (const WildSample& one : more)
+    if (std::ranges::none_of(jumps, [&](const WildSample& jump) {
+          return jump.sample == one.sample && jump.point == one.point;
+        }))
+      jumps.push_back(one);
+  std::ranges::stable_sort(jumps, {}, &WildSample::sample);
 }
 
 /// `at`: the positions of the motion that are evaluated.
@@ -238,15 +248,13 @@ MendedMotion without_wild_samples(const Motion& motion) {
   const double step_s = median_step(motion.time_s);
   out.wild = far_off_their_median(out.motion, implausible_m(step_s));
   mend(out.wild, out.motion);
-  if (step_s <= kSlowStep_s) {
-    const std::vector<WildSample> lone = lone_readings(out.motion, kLoneJump_m);
-    mend(lone, out.motion);
-    out.wild.insert(out.wild.end(), lone.begin(), lone.end());
-    std::ranges::stable_sort(out.wild, {}, &WildSample::sample);
-  } else {
-    out.lone = lone_readings(out.motion, kWildJump_m);
-  }
+  std::vector<WildSample> kept;
+  if (step_s <= kSlowStep_s)
+    kept = mend_lone_and_stays(out);
+  else
+    out.lone = lone_readings(out.motion, without_shift(out.motion), kWildJump_m);
   out.jumps = jumps_of(out.motion);
+  add_jumps(kept, out.jumps);
   return out;
 }
 

@@ -7,8 +7,8 @@
 
 namespace hyperex::motion {
 
-// Single readings that are impossible for a face: markers that were exchanged or lost for a moment,
-// or a decimal point in the wrong place.
+// Readings that are impossible for a face: markers that were exchanged or lost for a moment, or a
+// decimal point in the wrong place.
 
 /// A reading of one point that jumps away and comes back.
 struct WildSample {
@@ -27,7 +27,8 @@ struct MendedMotion {
   /// Readings that jump away and back alone in a slow recording, where a face could do so. Kept.
   std::vector<WildSample> lone;
   /// Readings of `motion` that are as far and as fast from the point's reading before, off_m, in
-  /// the same order: points that jump away and stay there longer than can be mended.
+  /// the same order: points that jump away and stay there longer than can be mended. The ways there
+  /// and back of brief stays (brief_stays.hpp) that are too long for it are here as well.
   std::vector<WildSample> jumps;
 };
 
@@ -44,10 +45,11 @@ inline constexpr double kLoneJump_m = 0.006, kSlowStep_s = 1 / 23.5;
 
 /// Finds wild readings and replaces them by linear interpolation in time. Wild is what is farther
 /// than max(kWildJump_m, kWildSpeed_m_s * median step) from the median of the five readings of its
-/// point around it, and what is lone. The median of the same difference over all points is
-/// subtracted first, so that a jump of the whole head does not count as a jump of a point. At most
-/// two samples in a row can be mended. With fewer than three points or five samples nothing is
-/// mended, and with fewer than three points no jump is found.
+/// point around it, at most two samples in a row. The median of the same difference over all points
+/// is subtracted first, so that a jump of the whole head does not count as a jump of a point. Wild
+/// is also what is lone and, from 24 samples a second on, what is in a brief stay
+/// (brief_stays.hpp) of up to kLongestMended_s. With fewer than three points or five samples
+/// nothing is mended, and with fewer than three points no jump is found.
 MendedMotion without_wild_samples(const Motion& motion);
 
 /// The largest plausible distance of a point of a face from its first reading, m.

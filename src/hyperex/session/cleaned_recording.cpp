@@ -12,8 +12,9 @@ namespace {
 
 /// The motion as it was, with its wild readings as jumps. The weights were mended before.
 motion::MendedMotion only_reported(motion::MendedMotion mended, const motion::Motion& recorded) {
-  for (const motion::WildSample& wild : mended.wild)
-    if (wild.off_m > motion::kWildJump_m) mended.jumps.push_back(wild);
+  mended.jumps.insert(mended.jumps.end(), mended.wild.begin(), mended.wild.end());
+  std::erase_if(mended.jumps,
+                [](const motion::WildSample& jump) { return jump.off_m <= motion::kWildJump_m; });
   std::ranges::stable_sort(mended.jumps, {}, &motion::WildSample::sample);
   for (auto* readings : {&mended.wild, &mended.zeros, &mended.lone}) readings->clear();
   mended.motion = recorded;

@@ -53,9 +53,9 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
           make_warning(id, fmt::format("{}: {}", what, first_readings(mended.motion, readings))));
   };
   add("recording.wild_samples", mended.wild,
-      fmt::format("a point jumps away and back within {} reading{}, which no face does; left out "
-                  "and interpolated",
-                  mended.wild.size(), mended.wild.size() > 1 ? "s" : ""));
+      fmt::format("a point jumps away and back, which no face does; {} such reading{} left out and "
+                  "interpolated",
+                  mended.wild.size(), mended.wild.size() > 1 ? "s were" : " was"));
   add("recording.zeros", mended.zeros,
       fmt::format("{} reading{} of (0, 0, 0) {} taken as missing, as the point is never near there "
                   "otherwise",
@@ -65,8 +65,8 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
       "a point jumps away and back in a single reading; kept, as a face could do so between "
       "readings that are so far apart in time, so look at it");
   add("recording.jumps", mended.jumps,
-      "a point moves farther between two readings than a face can; kept as it is, so correct it or "
-      "leave its cells empty");
+      "a point jumps between two readings as no face does; kept as it is, so correct it or leave "
+      "its cells empty");
   return notes;
 }
 

@@ -8,7 +8,7 @@
 
 namespace hyperex::session {
 
-/// Of single readings of a recording, in this order:
+/// Of readings of a recording that no face makes, in this order:
 /// * `recording.wild_samples`: those that were left out, because no face moves like that,
 /// * `recording.zeros`: those of (0, 0, 0), which were taken as missing,
 /// * `recording.lone_samples`: those of a slow recording that jump away and back alone,

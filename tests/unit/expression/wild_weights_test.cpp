@@ -77,9 +77,31 @@ TEST(WildWeights, ADropOfOneReadingIsInterpolated) {
   EXPECT_LT(largest_change(mended, std::vector<double>(20, 0.8)), 1e-12);
 }
 
-TEST(WildWeights, MovementsOfTwoReadingsOrMoreAreKept) {
-  EXPECT_EQ(doubts_of(rising(20, {1, 1})), 0u) << "two readings";
+TEST(WildWeights, SeveralReadingsAtAWrongWeightAreInterpolated) {
+  for (const std::size_t count : {2, 3, 5, 8})
+    for (const double wrong : {0.55, 1.0}) {
+      const MendedShapes mended = without_wild_weights(
+          one_weight("jawOpen", rising(15, std::vector<double>(count, wrong))));
+      ASSERT_EQ(mended.wild.size(), count) << wrong;
+      EXPECT_EQ(mended.wild[0].sample, 15u);
+      EXPECT_NEAR(mended.wild[0].off, wrong - 0.15, 1e-12) << "the line through those beside it";
+      EXPECT_TRUE(mended.doubtful.empty());
+      EXPECT_LT(largest_change(mended, rising(0, {})), 1e-12);
+    }
+  EXPECT_EQ(doubts_of(rising(15, {0.44, 0.44})), 0u) << "a jump of 0.3, but 0.28 back";
+}
+
+TEST(WildWeights, WrongWeightsForLongerAreKeptAndNamed) {
+  const std::vector<double> held(7, 0.9);
+  EXPECT_EQ(doubts_of(rising(10, held), 30), 7u) << "0.27 s";
+  EXPECT_EQ(doubts_of(rising(10, std::vector<double>(9, 0.9)), 30), 0u) << "0.33 s";
+  EXPECT_EQ(doubts_of(rising(10, {1, 1}), 20), 0u) << "a face may be that fast";
+}
+
+TEST(WildWeights, MovementsAreKept) {
   EXPECT_EQ(doubts_of(rising(20, {0.5, 1, 0.5})), 0u) << "up and down";
+  EXPECT_EQ(doubts_of(rising(20, {1, 0.5, 1})), 0u) << "up, and another movement there";
+  EXPECT_EQ(doubts_of(rising(20, {0.65, 0.65, 0.8, 1})), 0u) << "farther back than away";
   EXPECT_EQ(doubts_of(rising(20, {1, 0.6})), 0u) << "fast up, slower down";
   EXPECT_EQ(doubts_of({0, 0, 0, 0, 1, 1, 1, 1}), 0u) << "a step";
   EXPECT_EQ(doubts_of({0, 0, 0, 0, 0.5, 1, 1, 1}), 0u) << "a ramp";
@@ -87,8 +109,10 @@ TEST(WildWeights, MovementsOfTwoReadingsOrMoreAreKept) {
 
 TEST(WildWeights, EyesLidsAndTongueAreThatFast) {
   for (const char* name :
-       {"eyeBlinkLeft", "eyeSquintRight", "eyeWideLeft", "eyeLookUpRight", "tongueOut"})
+       {"eyeBlinkLeft", "eyeSquintRight", "eyeWideLeft", "eyeLookUpRight", "tongueOut"}) {
     EXPECT_EQ(doubts_of(rising(20, {1}), 60, name), 0u) << name;
+    EXPECT_EQ(doubts_of(rising(20, {1, 1, 1}), 60, name), 0u) << name;
+  }
 }
 
 TEST(WildWeights, TheFirstAndTheLastReadingAreKeptAndNamed) {
