@@ -81,6 +81,7 @@ struct FaceSession::Impl {
   simulate::SimulationOptions options_of(const scene::Scene& of, const Inputs& its_inputs,
                                          const std::optional<tissue::TissueField>& its_field) const;
   simulate::Simulator& simulator_of(std::size_t number);
+  void add_gaze(simulate::Performance& performance) const;
 
   void run_base(const simulate::RunCallbacks& callbacks);
   void run_variants(const simulate::RunCallbacks& callbacks);
