@@ -48,14 +48,39 @@ function ball(model: NonNullable<Replay['eyeModel']>, light: Uint8Array): Buffer
   return geometry;
 }
 
-export function eyesOf({ eyeballs, eyeModel }: Replay): Group[] {
-  if (!eyeModel) return [];
-  return eyeballs.map(({ centre, gaze, radiusM, light }) => {
-    const eye = new Group();
-    eye.add(new Mesh(ball(eyeModel, light), materials.ball), new Mesh(cornea(), materials.cornea));
-    eye.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...gaze)));
-    eye.position.set(...centre);
-    eye.scale.setScalar(radiusM);
-    return eye;
-  });
+const ahead = new Vector3(0, 0, 1);
+const after = new Quaternion();
+
+/** The right and the left eye. */
+export class Eyes {
+  readonly balls: Group[];
+  private readonly rest: Quaternion[];
+
+  constructor({ eyeballs, eyeModel }: Replay) {
+    const shown = eyeModel ? eyeballs : [];
+    this.rest = shown.map(({ gaze }) => new Quaternion().setFromUnitVectors(ahead, new Vector3(...gaze)));
+    this.balls = shown.map(({ centre, radiusM, light }, side) => {
+      const eye = new Group();
+      eye.add(new Mesh(ball(eyeModel!, light), materials.ball), new Mesh(cornea(), materials.cornea));
+      eye.quaternion.copy(this.rest[side]);
+      eye.position.set(...centre);
+      eye.scale.setScalar(radiusM);
+      return eye;
+    });
+  }
+
+  /** `gaze`: as in `Replay`. `frame`: may be fractional; interpolated as in the animated glTF. */
+  turn(gaze: Float32Array | null, frame: number): void {
+    const first = Math.floor(frame);
+    this.balls.forEach(({ quaternion }, side) => {
+      if (!gaze) {
+        quaternion.copy(this.rest[side]);
+        return;
+      }
+      const second = Math.min(first + 1, gaze.length / 8 - 1);
+      const at = (which: number) => 8 * which + 4 * side;
+      quaternion.fromArray(gaze, at(first)).slerp(after.fromArray(gaze, at(second)), frame - first);
+      quaternion.multiply(this.rest[side]);
+    });
+  }
 }
