@@ -125,7 +125,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   // Added before the morph targets, which may take the rest of options.max_bytes.
   const FaceBacking backing = face_backing(performance, options.teeth);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, !performance.gaze.empty(),
+           nodes);
   if (options.teeth) {
     add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
     place_upper_teeth(model.nodes[std::size_t(nodes.upper_teeth)],

@@ -258,6 +258,11 @@ TEST(Glb, EyesTurnWithTheGaze) {
   EXPECT_NEAR(looking(left, 15).x(), std::sin(0.3), 1e-3) << "the subject's left is +x";
   EXPECT_NEAR(looking(right, 15).x(), 0, 1e-6);
   EXPECT_GT(looking(right, 15).y(), ahead.y() + 0.15);
+  const auto darkest_white = [](const tinygltf::Model& of) {
+    const auto& eye = of.meshes[1].primitives[0];
+    return rows_of<std::uint16_t, 4>(of, eye.attributes.at("COLOR_0")).bottomRows(64).minCoeff();
+  };
+  EXPECT_GT(darkest_white(model), 6000) << "linear, of 65535: no black part comes into sight";
   face.performance.gaze.pop_back();
   EXPECT_THROW(write_glb(file, face.performance, face.scan), std::invalid_argument);
 }

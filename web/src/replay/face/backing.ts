@@ -92,7 +92,7 @@ export class Backing {
     this.mouth = replay.openings.find(({ jaw }) => jaw.some((share) => share > 0))?.loop;
     this.pockets = replay.openings.map((opening) => new Pocket(opening, replay.points));
     this.eyes = new Eyes(replay);
-    this.object.add(...this.pockets.map(({ mesh }) => mesh), ...this.eyes.balls);
+    this.object.add(...this.pockets.map(({ mesh }) => mesh), ...this.eyes.objects);
   }
 
   follow(points: Float32Array, jaw: Matrix4): void {
