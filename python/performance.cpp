@@ -4,8 +4,13 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <string>
+#include <utility>
+
 #include "arrays.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/expression/gaze.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -34,6 +39,18 @@ const PointsF& frame_in(const std::vector<PointsF>& frames, py::ssize_t frame) {
 }
 py::array frame_of(const py::object& self, const std::vector<PointsF>& frames, py::ssize_t frame) {
   return view(frame_in(frames, frame), self);
+}
+
+std::map<std::string, py::array_t<double>> gaze_of(const RunResult& self) {
+  const auto& gaze = self.performance().gaze;
+  std::map<std::string, py::array_t<double>> columns;
+  for (std::size_t c = 0; !gaze.empty() && c < expression::kGazeNames.size(); ++c) {
+    py::array_t<double> column(static_cast<py::ssize_t>(gaze.size()));
+    for (std::size_t f = 0; f < gaze.size(); ++f)
+      column.mutable_at(static_cast<py::ssize_t>(f)) = expression::degrees_of(gaze[f])[c];
+    columns.emplace(expression::kGazeNames[c], std::move(column));
+  }
+  return columns;
 }
 
 TriMesh skin_at(const RunResult& self, py::ssize_t frame) {
@@ -123,6 +140,11 @@ void bind_arrays(py::class_<RunResult>& run) {
             return view(self.cast<RunResult&>().performance().frame_time_s, self);
           },
           "Time of each frame, s.")
+      .def_property_readonly(
+          "gaze", &gaze_of,
+          "By the names of gaze.csv (eye_yaw_R_deg ...), an array of one angle per frame, degrees; "
+          "yaw above 0: to the subject's left, pitch above 0: up. Empty where the recording does "
+          "not have it.")
       .def_property_readonly(
           "nodes_m",
           [](const py::object& self) {

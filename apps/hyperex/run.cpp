@@ -102,6 +102,7 @@ void run(const RunOptions& options) {
       {"error_budget.csv", "how certain each excursion and each change is, and why"},
       {"activations.csv", "what the muscles did"},
       {"muscles.png", "where they lie"},
+      {"gaze.csv", "how the eyes turn"},
       {"excursions.csv", "how far and how fast either side moves"},
       {"asymmetry.png", "the face against its reflection"},
       {"summary.json", "counts, times, options"}};

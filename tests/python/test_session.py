@@ -50,6 +50,27 @@ class FaceSessions(unittest.TestCase):
         with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3"):
             face.set("tissue.young_kpa", -3)
 
+    def test_the_eyes_turn_with_the_gaze(self):
+        with tempfile.TemporaryDirectory() as folder:
+            folder = pathlib.Path(folder)
+            (folder / "look.csv").write_text("time_s,jawOpen,eyeLookOutLeft,eyeLookInRight,eyeLookDownLeft\n"
+                                             "0,0,0,0,0\n0.4,0.1,1,0.5,0.2\n")
+            (folder / "look.toml").write_text('scan.file = "embedded"\nmotion.arkit = "look.csv"\n')
+            coarse = {**COARSE, "drive.by": "displacement"}
+            gaze = hyperex.FaceSession(folder / "look.toml", coarse).performance().gaze
+            hyperex.run_scene(folder / "look.toml", folder / "out", coarse)
+            table = np.genfromtxt(folder / "out/gaze.csv", delimiter=",", names=True)
+        self.assertEqual(table.dtype.names[0], "time_s")
+        self.assertEqual(set(table.dtype.names[1:]), set(gaze))
+        for name, degrees in gaze.items():
+            np.testing.assert_allclose(degrees, table[name], err_msg=name)
+        self.assertEqual(gaze["eye_yaw_L_deg"][0], 0)
+        self.assertAlmostEqual(gaze["eye_yaw_L_deg"][2], 35)  # to the subject's left
+        self.assertAlmostEqual(gaze["eye_yaw_R_deg"][2], 17.5)
+        self.assertAlmostEqual(gaze["eye_pitch_L_deg"][2], -7)
+        other = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", coarse)
+        self.assertEqual(other.performance().gaze, {})
+
     def test_error_budget(self):
         session = hyperex.FaceSession(EXAMPLES / "demo.toml", {**COARSE, "mesh.layers": 2})
         shares = []

@@ -206,6 +206,8 @@ constexpr NoteKind kKinds[] = {
     "At small strain a tetrahedron's greatest principal strain at the peak is above 0.5: "
     "tissue.strain = \"finite\" is for such strains."),
   note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
+  note("eyes.closed", "scan.file",
+    "The recording has a gaze, and the scan has no opening at an eye: none is seen to turn there."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
 };

@@ -5,15 +5,18 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cctype>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/slips.hpp"
 #include "hyperex/expression/arkit_names.hpp"
+#include "hyperex/expression/gaze.hpp"
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/io/csv.hpp"
@@ -65,6 +68,31 @@ void note_left_out(const std::vector<std::string>& columns, BlendShapes& out) {
     out.notes.push_back(fmt::format("columns left out: {}", fmt::join(others, ", ")));
 }
 
+/// Reads the angles of the eyes and takes their names off `left_out`.
+void read_eye_angles(const io::CsvTable& table, BlendShapes& out,
+                     std::vector<std::string>& left_out) {
+  constexpr std::array names = {"LeftEyeYaw", "LeftEyePitch", "RightEyeYaw", "RightEyePitch"};
+  Eigen::MatrixXd angles(table.values.rows(), Eigen::Index(names.size()));
+  for (std::size_t c = 0; c < names.size(); ++c) {
+    const std::optional<int> column = table.find(names[c]);
+    if (!column) return;
+    angles.col(Eigen::Index(c)) = table.values.col(*column);
+  }
+  const Eigen::ArrayXXd size = angles.array().isNaN().select(0, angles.array().abs());
+  if (size.maxCoeff() == 0) return;
+  if (const double most = size.maxCoeff(); most > std::numbers::pi / 2) {
+    out.notes.push_back(fmt::format(
+        "the angles of the eyes (LeftEyeYaw ...) reach {:g}, so they are no radians as Live Link "
+        "writes them; the gaze is taken from the weights eyeLook... alone",
+        most));
+    return;
+  }
+  out.eye_angles_rad = std::move(angles);
+  std::erase_if(left_out, [&](const std::string& column) {
+    return std::ranges::find(names, column) != names.end();
+  });
+}
+
 }  // namespace
 
 BlendShapes read_arkit(const std::filesystem::path& file) {
@@ -110,6 +138,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
   }
   if (columns.empty())
     throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen");
+  read_eye_angles(table, out, left_out);
   note_left_out(left_out, out);
   out.weights.resize(rows, static_cast<Eigen::Index>(columns.size()));
   for (Eigen::Index k = 0; k < rows; ++k)
@@ -202,7 +231,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
                                               model.name, fmt::join(shapes.names, ", ")));
   std::vector<std::string> idle;
   for (std::size_t c = 0; c < shapes.names.size(); ++c)
-    if (!used.contains(shapes.names[c]) &&
+    if (!used.contains(shapes.names[c]) && !is_gaze(shapes.names[c]) &&
         shapes.weights.col(static_cast<Eigen::Index>(c)).cwiseAbs().maxCoeff() > 0)
       idle.push_back(shapes.names[c]);
   if (!idle.empty())

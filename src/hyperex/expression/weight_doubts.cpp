@@ -8,15 +8,12 @@
 #include <set>
 
 #include "hyperex/expression/arkit_names.hpp"
+#include "hyperex/expression/gaze.hpp"
 
 namespace hyperex::expression {
 namespace {
 
 constexpr double kLarge = 0.3, kStretch_s = 0.3, kStart_s = 0.1, kSlack_s = 1e-9;
-
-bool is_gaze(const std::string& shape) {
-  return shape.starts_with("eyeLook");
-}
 
 /// Mean weights over an interval, without those of gaze; nothing if the face was not seen in it.
 std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double from_s,

@@ -82,6 +82,21 @@ Eigen::Quaterniond looking_along(const Vec3& gaze) {
   return Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), gaze);
 }
 
+std::array<Eigen::Quaterniond, 2> turns_of(const expression::EyesGaze& gaze,
+                                           const std::vector<anatomy::Eyeball>& eyes) {
+  const Vec3 across = eyes.at(1).centre - eyes.at(0).centre;
+  return {expression::turn_of(gaze.right, eyes[0].gaze, across),
+          expression::turn_of(gaze.left, eyes[1].gaze, across)};
+}
+
+std::vector<anatomy::Eyeball> turned(std::vector<anatomy::Eyeball> eyes,
+                                     const expression::EyesGaze& gaze) {
+  if (eyes.empty()) return eyes;
+  const auto turns = turns_of(gaze, eyes);
+  for (std::size_t side = 0; side < 2; ++side) eyes[side].gaze = turns[side] * eyes[side].gaze;
+  return eyes;
+}
+
 TriMesh placed_eye(const anatomy::Eyeball& eye) {
   const TriMesh& unit = eye_model().mesh;
   const Eigen::Matrix3d turn = looking_along(eye.gaze).toRotationMatrix();

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <array>
 #include <vector>
 
 #include "hyperex/anatomy/eyeballs.hpp"
+#include "hyperex/expression/gaze.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/render/render.hpp"
 
@@ -20,6 +22,15 @@ const EyeModel& eye_model();
 
 /// The rotation from +z to the direction of gaze.
 Eigen::Quaterniond looking_along(const Vec3& gaze);
+
+/// The rotations of the right and the left eye about their centres, from how they stand in `eyes`
+/// (both, looking ahead) to a gaze.
+std::array<Eigen::Quaterniond, 2> turns_of(const expression::EyesGaze& gaze,
+                                           const std::vector<anatomy::Eyeball>& eyes);
+
+/// The eyes (both or none) turned to a gaze.
+std::vector<anatomy::Eyeball> turned(std::vector<anatomy::Eyeball> eyes,
+                                     const expression::EyesGaze& gaze);
 
 /// In its place on the face, metres.
 TriMesh placed_eye(const anatomy::Eyeball& eye);

@@ -32,15 +32,16 @@ bool is_mouth(const std::vector<int>& loop, const Points& points, const FaceCorn
   return off.norm() < 0.4 * across.norm() && most - least > 0.6 * across.squaredNorm();
 }
 
-/// About the middle between the corners of an eye.
+/// About the middle between the corners of the right (0) or left (1) eye.
+bool is_at_eye(const std::vector<int>& loop, const Points& points, const FaceCorners& corners,
+               std::size_t side) {
+  const auto& inner = corners.inner[side];
+  if (!inner) return false;
+  const Vec3& outer = corners.outer[side];
+  return (centre_of(loop, points) - (*inner + outer) / 2).norm() < 0.5 * (*inner - outer).norm();
+}
 bool is_eye(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
-  const Vec3 centre = centre_of(loop, points);
-  for (std::size_t side = 0; side < 2; ++side)
-    if (const auto& inner = corners.inner[side]; inner) {
-      const Vec3& outer = corners.outer[side];
-      if ((centre - (*inner + outer) / 2).norm() < 0.5 * (*inner - outer).norm()) return true;
-    }
-  return false;
+  return is_at_eye(loop, points, corners, 0) || is_at_eye(loop, points, corners, 1);
 }
 
 /// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
@@ -169,6 +170,17 @@ io::Landmarks landmarks_at_rest(const simulate::Performance& performance) {
 
 FaceBacking face_backing(const simulate::Performance& performance, const anatomy::Teeth* teeth) {
   return face_backing(performance.skin_rest, landmarks_at_rest(performance), teeth);
+}
+
+std::array<bool, 2> open_eyes(const FaceBacking& backing, const Points& skin,
+                              const io::Landmarks& landmarks) {
+  std::array<bool, 2> open{};
+  const auto corners = anatomy::face_corners(landmarks);
+  for (std::size_t side = 0; corners && side < 2; ++side)
+    open[side] = std::ranges::any_of(backing.openings, [&](const Opening& opening) {
+      return is_at_eye(opening.loop, skin, *corners, side);
+    });
+  return open;
 }
 
 Eigen::VectorXd light_in_mouth(const TriMesh& part, const TriMesh& row, const Vec3& forward) {

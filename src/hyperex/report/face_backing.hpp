@@ -64,6 +64,11 @@ io::Landmarks landmarks_at_rest(const simulate::Performance& performance);
 FaceBacking face_backing(const simulate::Performance& performance,
                          const anatomy::Teeth* teeth = nullptr);
 
+/// Whether the skin has an opening at the right and at the left eye, through which the eyeball
+/// shows. False where landmarks are missing.
+std::array<bool, 2> open_eyes(const FaceBacking& backing, const Points& skin,
+                              const io::Landmarks& landmarks);
+
 /// The share (0 to 1) of the light falling on the lips that reaches vertices of teeth and gum: 1 at
 /// the front of the row, decreasing to 0.35 at 35 mm behind it. `row`: that of the jaw, which
 /// defines the front.

@@ -164,6 +164,19 @@ json upper_teeth_section(const simulate::Performance& performance) {
   return {turn.x(), turn.y(), turn.z(), turn.w(), by.x(), by.y(), by.z()};
 }
 
+json gaze_section(const simulate::Performance& performance, BinaryBlock& block) {
+  const auto corners = anatomy::face_corners(landmarks_at_rest(performance));
+  if (performance.gaze.empty() || !corners) return nullptr;
+  const auto eyes = anatomy::eyeballs_behind(performance.skin_rest.points, *corners);
+  if (eyes.empty()) return nullptr;
+  std::vector<float> values;
+  for (const expression::EyesGaze& gaze : performance.gaze)
+    for (const Eigen::Quaterniond& turn : turns_of(gaze, eyes))
+      for (const double value : {turn.x(), turn.y(), turn.z(), turn.w()})
+        values.push_back(static_cast<float>(value));
+  return block.add(values);
+}
+
 json jaw_section(const simulate::Performance& performance, BinaryBlock& block) {
   std::vector<float> values;
   Eigen::Quaterniond before = Eigen::Quaterniond::Identity();

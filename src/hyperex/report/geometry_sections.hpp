@@ -28,6 +28,10 @@ nlohmann::json teeth_section(const anatomy::Teeth& teeth, const Vec3& forward, B
 /// Frames x 7: a quaternion x y z w and a translation, now_from_rest.
 nlohmann::json jaw_section(const simulate::Performance& performance, BinaryBlock& block);
 
+/// Frames x 8: the quaternions x y z w of the right and of the left eye, from looking ahead. Null
+/// without a gaze or eyeballs.
+nlohmann::json gaze_section(const simulate::Performance& performance, BinaryBlock& block);
+
 /// The pose that surgery gave the upper teeth, now_from_rest: a quaternion x y z w and a
 /// translation (m), 7 numbers. Null where it did not move them.
 nlohmann::json upper_teeth_section(const simulate::Performance& performance);

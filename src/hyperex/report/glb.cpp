@@ -4,10 +4,13 @@
 #include <tiny_gltf.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/report/eye_model.hpp"
 #include "hyperex/report/gltf_face.hpp"
 #include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/skin_view.hpp"
@@ -36,6 +39,24 @@ void animate_jaw(tinygltf::Model& model, GltfArrays& arrays, int node,
   for (int k = 0; k < 3; ++k) model.nodes[std::size_t(node)].translation.push_back(shifts(0, k));
 }
 
+/// Rotation of the eyes' nodes as the gaze in each frame.
+void animate_eyes(tinygltf::Model& model, GltfArrays& arrays, const FaceNodes& nodes,
+                  const std::vector<Eyeball>& eyes, const simulate::Performance& performance,
+                  tinygltf::Animation& animation) {
+  const auto frames = static_cast<Index>(performance.gaze.size());
+  std::array<Eigen::MatrixXf, 2> turns{Eigen::MatrixXf(frames, 4), Eigen::MatrixXf(frames, 4)};
+  for (Index f = 0; f < frames; ++f) {
+    const auto now = turns_of(performance.gaze[std::size_t(f)], eyes);
+    for (std::size_t side = 0; side < 2; ++side)  // less than half a turn: w > 0 throughout
+      turns[side].row(f) = now[side].coeffs().cast<float>().transpose();  // x y z w
+  }
+  const int times = arrays.times(performance.frame_time_s, performance.frame_time_s.front());
+  for (const auto& [node, turn] : {std::pair{nodes.eye_R, &turns[0]}, {nodes.eye_L, &turns[1]}}) {
+    animate(animation, node, "rotation", times, arrays.rows_as_vectors(*turn));
+    for (int k = 0; k < 4; ++k) model.nodes[std::size_t(node)].rotation.push_back((*turn)(0, k));
+  }
+}
+
 /// Puts the upper teeth where surgery put them.
 void place_upper_teeth(tinygltf::Node& node, const Eigen::Isometry3d& now_from_rest) {
   if (now_from_rest.isApprox(Eigen::Isometry3d::Identity(), 1e-9)) return;
@@ -51,6 +72,8 @@ void check_glb(const simulate::Performance& performance, const GlbOptions& optio
     whole = whole && frame.rows() == performance.skin_rest.points.rows();
   if (options.teeth)
     whole = whole && performance.jaw_now_from_rest.size() == performance.frame_time_s.size();
+  whole = whole &&
+          (performance.gaze.empty() || performance.gaze.size() == performance.frame_time_s.size());
   if (!whole) throw std::invalid_argument("write_glb: frames that are not the performance's");
 }
 
@@ -66,8 +89,8 @@ std::vector<Eigen::Isometry3d> jaws_of(const simulate::Performance& performance,
 /// may take the bytes that the other parts leave of options.max_bytes.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
-                     const std::vector<Opening>& openings, const Points& cavity,
-                     const GlbOptions& options, int lower_teeth, GlbReport& report) {
+                     const FaceBacking& backing, const Points& cavity, const GlbOptions& options,
+                     const FaceNodes& nodes, GlbReport& report) {
   const Points& rest = performance.skin_rest.points;
   const double copies =
       double(Index(view.skin_vertex.size()) + cavity.rows()) / double(rest.rows());
@@ -77,8 +100,8 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   report.keys = targets.names.size();
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
-  if (!openings.empty())
-    add_pocket_targets(mesh.primitives[1], arrays, openings, rest, cavity, targets,
+  if (!backing.openings.empty())
+    add_pocket_targets(mesh.primitives[1], arrays, backing.openings, rest, cavity, targets,
                        options.teeth ? jaws_of(performance, targets.keys.frames)
                                      : std::vector<Eigen::Isometry3d>{});
   tinygltf::Animation animation;
@@ -86,7 +109,9 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   const double start_s = performance.frame_time_s.front();
   const int times = arrays.times(performance.frame_time_s, start_s);
   animate(animation, 0, "weights", times, arrays.rows_as_scalars(targets.keys.weights));
-  if (lower_teeth >= 0) animate_jaw(model, arrays, lower_teeth, performance, animation);
+  if (nodes.lower_teeth >= 0) animate_jaw(model, arrays, nodes.lower_teeth, performance, animation);
+  if (nodes.eye_R >= 0 && !performance.gaze.empty())
+    animate_eyes(model, arrays, nodes, backing.eyeballs, performance, animation);
   model.animations.push_back(animation);
 }
 
@@ -100,7 +125,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   // Added before the morph targets, which may take the rest of options.max_bytes.
   const FaceBacking backing = face_backing(performance, options.teeth);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, !performance.gaze.empty(),
+           nodes);
   if (options.teeth) {
     add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
     place_upper_teeth(model.nodes[std::size_t(nodes.upper_teeth)],
@@ -117,8 +143,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
       std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
                   [](const PointsF& frame) { return !frame.isZero(0); });
   if (moves)
-    add_performance(model, arrays, mesh, performance, view, backing.openings, cavity.points,
-                    options, nodes.lower_teeth, report);
+    add_performance(model, arrays, mesh, performance, view, backing, cavity.points, options, nodes,
+                    report);
   model.meshes[0] = std::move(mesh);
   end_face(model);
   return model;

@@ -24,6 +24,8 @@ json motion_section(const ReportInput& input, BinaryBlock& block) {
   motion["peak_frame"] = input.performance.peak_frame;
   motion["max_displacement_mm"] =
       1e3 * metrics::greatest_displacement_m(input.performance.skin_displacement_m);
+  if (json gaze = gaze_section(input.performance, block); !gaze.is_null())
+    motion["gaze"] = std::move(gaze);
   return motion;
 }
 
@@ -219,6 +221,7 @@ void check_input(const ReportInput& input) {
            static_cast<std::size_t>(modes.weights.rows()) == frames &&
            (modes.modes.empty() || modes.modes[0].rows() == vertices) &&
            (!input.teeth || of.jaw_now_from_rest.size() == frames) &&
+           (of.gaze.empty() || of.gaze.size() == frames) &&
            of.landmarks.names == performance.landmarks.names &&
            of.landmarks.time_s.size() == performance.landmarks.time_s.size();
   };

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <stdexcept>
+#include <utility>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/report/gltf_face.hpp"
@@ -42,18 +43,14 @@ void add_rigid_targets(tinygltf::Model& model, GltfArrays& arrays, int node,
 }
 
 void add_eye_targets(tinygltf::Model& model, GltfArrays& arrays, int node, const Vec3& ahead,
-                     const Vec3& up, const std::vector<RigShape>& shapes,
-                     const std::optional<Gaze> RigShape::*eye) {
+                     const Vec3& across, const std::vector<RigShape>& shapes,
+                     const std::optional<expression::Gaze> RigShape::*eye) {
   std::vector<std::string> names;
   std::vector<Move> moves;
-  const Vec3 left = up.cross(ahead).normalized();
   for (const RigShape& shape : shapes) {
     if (!(shape.*eye)) continue;
-    const Gaze gaze = *(shape.*eye);
     const Eigen::Matrix3d turn =
-        (Eigen::AngleAxisd(gaze.left_rad, left.cross(-ahead).normalized()) *
-         Eigen::AngleAxisd(-gaze.up_rad, left))
-            .toRotationMatrix();
+        expression::turn_of(*(shape.*eye), ahead, across).toRotationMatrix();
     names.push_back(shape.name);
     moves.emplace_back([turn](const Points& rest) { return Points(rest * turn.transpose()); });
   }
@@ -134,7 +131,7 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
     add_pocket_targets(skin.primitives[1], arrays, backing.openings, rest.points, cavity.points,
                        targets, jaws);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, true, nodes);
   if (teeth) {
     anatomy::Teeth about = *teeth;
     for (TriMesh* part : {&about.lower.crowns, &about.lower.gum, &about.tongue})
@@ -147,9 +144,9 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   }
   if (backing.eyeballs.size() == 2) {
     const Vec3 across = backing.eyeballs[1].centre - backing.eyeballs[0].centre;
-    const Vec3 up = backing.forward.cross(across).normalized();
-    add_eye_targets(model, arrays, nodes.eye_R, backing.forward, up, shapes, &RigShape::right_eye);
-    add_eye_targets(model, arrays, nodes.eye_L, backing.forward, up, shapes, &RigShape::left_eye);
+    for (const auto& [node, eye] :
+         {std::pair{nodes.eye_R, &RigShape::right_eye}, {nodes.eye_L, &RigShape::left_eye}})
+      add_eye_targets(model, arrays, node, backing.forward, across, shapes, eye);
   }
   model.meshes[0] = std::move(skin);
   end_face(model);

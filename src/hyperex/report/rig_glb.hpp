@@ -7,22 +7,18 @@
 #include <vector>
 
 #include "hyperex/anatomy/teeth/teeth.hpp"
+#include "hyperex/expression/gaze.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::report {
-
-/// How an eye turns from looking ahead, radians.
-struct Gaze {
-  double up_rad = 0, left_rad = 0;  ///< left: the subject's
-};
 
 /// A face at weight 1 of one blend shape.
 struct RigShape {
   std::string name;
   PointsF displacement_m = {};  ///< of skin_rest's vertices
   Eigen::Isometry3d jaw_now_from_rest = Eigen::Isometry3d::Identity();
-  std::optional<Gaze> right_eye = {}, left_eye = {};
+  std::optional<expression::Gaze> right_eye = {}, left_eye = {};
 };
 
 /// Writes a face at rest as binary glTF 2.0, metres, with the shapes as morph targets of their

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <numbers>
-#include <tuple>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/expression/gaze.hpp"
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/rig/shape_motion.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -26,8 +26,6 @@ using report::RigShape;
 constexpr double kFrameRate_hz = 5;
 /// Weight at which open mouths with open and closed lips are compared.
 constexpr double kClosedAt = 0.7;
-/// Angles of the eyes at weight 1, degrees.
-constexpr double kLookUp_deg = 20, kLookDown_deg = 25, kLookAside_deg = 30;
 /// Shares of eyeWide and eyeBlink in which the lids follow.
 constexpr double kLidsUp = 0.5, kLidsDown = 0.55;
 /// A jaw that turns by less is taken as not moving.
@@ -36,7 +34,7 @@ constexpr double kJaw_rad = 0.005;
 constexpr const char* kSections[] = {"tissue", "muscles", "contact", "support", "mesh", "teeth"};
 
 bool moves_skin(const std::string& shape) {
-  return !shape.starts_with("eyeLook") && shape != "tongueOut";
+  return !expression::is_gaze(shape) && shape != "tongueOut";
 }
 
 /// The poses that are simulated, by name: every shape that moves skin alone, and those of
@@ -54,18 +52,6 @@ std::vector<Pose> poses_of(std::map<std::string, std::size_t>& place) {
   return poses;
 }
 
-/// How an eye turns: about the face's x axis (up) and y axis (to the subject's left), radians.
-void look(RigShape& shape) {
-  constexpr double deg = std::numbers::pi / 180;
-  const bool left = shape.name.ends_with("Left");
-  report::Gaze gaze;
-  if (shape.name.starts_with("eyeLookUp")) gaze.up_rad = kLookUp_deg * deg;
-  if (shape.name.starts_with("eyeLookDown")) gaze.up_rad = -kLookDown_deg * deg;
-  if (shape.name.starts_with("eyeLookOut")) gaze.left_rad = (left ? 1 : -1) * kLookAside_deg * deg;
-  if (shape.name.starts_with("eyeLookIn")) gaze.left_rad = (left ? -1 : 1) * kLookAside_deg * deg;
-  (left ? shape.left_eye : shape.right_eye) = gaze;
-}
-
 /// The simulated shapes as those of the rig.
 class Shapes {
  public:
@@ -77,9 +63,9 @@ class Shapes {
     shape.displacement_m = PointsF::Zero(skin("open").rows(), 3);
     if (name == "mouthClose") {
       shape.displacement_m = (skin("closed") - skin("open")) / float(kClosedAt);
-    } else if (name.starts_with("eyeLook")) {
-      look(shape);
+    } else if (expression::is_gaze(name)) {
       const std::string side = name.ends_with("Left") ? "Left" : "Right";
+      (side == "Left" ? shape.left_eye : shape.right_eye) = expression::gaze_of_shape(name);
       if (name.starts_with("eyeLookUp"))
         shape.displacement_m = float(kLidsUp) * skin("eyeWide" + side);
       if (name.starts_with("eyeLookDown"))
@@ -104,25 +90,12 @@ class Shapes {
   std::map<std::string, std::size_t> frame_;
 };
 
-/// Whether the scan has an opening between the corners of an eye. "36" and "39": those of the
-/// right.
-bool is_open(const report::FaceBacking& backing, const Points& skin, const io::Landmarks& landmarks,
-             const char* outer, const char* inner) {
-  const Vec3 middle = (landmarks.at(outer) + landmarks.at(inner)) / 2;
-  const double width = (landmarks.at(outer) - landmarks.at(inner)).norm();
-  return std::ranges::any_of(backing.openings, [&](const report::Opening& opening) {
-    const Points loop = skin(opening.loop, Eigen::all);
-    return (loop.colwise().mean().transpose() - middle).norm() < width / 2;
-  });
-}
-
 /// A scan with closed eyes has no lids to move: their shapes are taken away, with a note.
 void close_eyes(FaceRig& rig, const io::Landmarks& landmarks) {
   const Points& skin = rig.performance.skin_rest.points;
-  const report::FaceBacking backing = report::face_backing(rig.performance);
-  for (const auto& [side, outer, inner] :
-       {std::tuple{"Right", "ibug68_36", "ibug68_39"}, {"Left", "ibug68_45", "ibug68_42"}}) {
-    if (is_open(backing, skin, landmarks, outer, inner)) continue;
+  const auto open = report::open_eyes(report::face_backing(rig.performance), skin, landmarks);
+  for (const auto& [side, is_open] : {std::pair{"Right", open[0]}, {"Left", open[1]}}) {
+    if (is_open) continue;
     for (RigShape& shape : rig.shapes)
       if (shape.name.starts_with("eye") && shape.name.ends_with(side)) {
         shape.displacement_m.setZero();

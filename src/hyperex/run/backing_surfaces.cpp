@@ -38,10 +38,18 @@ report::FaceBacking backing_in_frame(const TriMesh& skin_rest, const io::Landmar
   return backing;
 }
 
+std::optional<expression::EyesGaze> gaze_in(const simulate::Performance& performance,
+                                            std::size_t frame) {
+  if (performance.gaze.empty()) return std::nullopt;
+  return performance.gaze.at(frame);
+}
+
 BackingSurfaces::BackingSurfaces(const report::FaceBacking& backing, const face::FaceFrame& frame,
                                  const Points& skin, const anatomy::Teeth* teeth,
-                                 const Eigen::Isometry3d& jaw, const Eigen::Isometry3d& upper) {
-  for (const report::Eyeball& eye : backing.eyeballs) {
+                                 const Eigen::Isometry3d& jaw, const Eigen::Isometry3d& upper,
+                                 const std::optional<expression::EyesGaze>& gaze) {
+  for (const report::Eyeball& eye :
+       gaze ? report::turned(backing.eyeballs, *gaze) : backing.eyeballs) {
     const TriMesh mesh = report::placed_eye(eye);
     parts_.push_back(
         {{frame.local_points(mesh.points), mesh.triangles}, {}, true, report::eye_model().colours});

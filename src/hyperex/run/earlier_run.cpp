@@ -17,8 +17,9 @@ const std::set<std::string> kOfAFace = {"activations.csv", "asymmetry.png", "con
                                         "excursions.csv",  "motion.csv",    "muscles.png",
                                         "skin_peak.ply",   "symmetry.csv",  "tissue_map.png"};
 const std::set<std::string> kOfARun = {
-    "error_budget.csv",     "frames.pvd",   "performance.glb", "report.html",
-    "summary.json",         "variants.csv", "variants.png",    "variants_excursions.csv",
+    "error_budget.csv",     "frames.pvd",   "performance.glb",
+    "report.html",          "gaze.csv",     "summary.json",
+    "variants.csv",         "variants.png", "variants_excursions.csv",
     "variants_symmetry.png"};
 
 bool is_name_of_an_output(const std::string& name) {

@@ -21,6 +21,7 @@
 #include "hyperex/run/backing_surfaces.hpp"
 #include "hyperex/run/face_box.hpp"
 #include "hyperex/run/frames.hpp"
+#include "hyperex/run/gaze_table.hpp"
 #include "hyperex/run/muscle_picture.hpp"
 #include "hyperex/run/skin_colours.hpp"
 #include "hyperex/session/thinned_scan.hpp"
@@ -198,7 +199,8 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
     const TriMesh mesh{frame.local_points(shape), p.skin_rest.triangles};
     const BackingSurfaces behind(
         backing, frame, mesh.points, r.teeth, still ? *still->jaw : Eigen::Isometry3d::Identity(),
-        still ? p.upper_teeth_now_from_rest : Eigen::Isometry3d::Identity());
+        still ? p.upper_teeth_now_from_rest : Eigen::Isometry3d::Identity(),
+        still && r.inputs.gaze ? std::optional(r.inputs.gaze->at(still->time_s)) : std::nullopt);
     if (!still)
       return {render::render(behind.with({.mesh = mesh, .colours = skin}), camera, options,
                              markers(p, frame), lines),
@@ -255,6 +257,7 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          write_peak(r, directory);
          if (r.tissue) write_tissue_map(r, directory / "tissue_map.png");
          motion::write_motion_csv(directory / "motion.csv", p.landmarks);
+         if (!base && !p.gaze.empty()) write_gaze_csv(directory / "gaze.csv", p);
          metrics::write_symmetry_csv(directory / "symmetry.csv", r.symmetry);
          if (!p.muscles.names.empty()) {
            write_activations_csv(directory / "activations.csv", p.muscles);

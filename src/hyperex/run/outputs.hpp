@@ -36,7 +36,8 @@ Results results_of(const session::FaceSession& session);
 
 /// Writes all files except summary.json and report.html into `directory`. Returns the report on
 /// performance.glb, or nothing if that file is not written. For a variant of `base`, muscles.png is
-/// written only if its muscles pull differently, because it would otherwise be the picture of base.
+/// written only if its muscles pull differently, because it would otherwise be the picture of base,
+/// and gaze.csv is not written.
 std::optional<report::GlbReport> write_outputs(const Results& results,
                                                const std::filesystem::path& directory,
                                                const Results* base = nullptr);

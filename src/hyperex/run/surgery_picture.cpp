@@ -196,8 +196,8 @@ void draw_surgery(const Results& base, const session::VariantRun& run,
     const simulate::Performance& p = later ? both.after : both.before;
     const TriMesh skin = both.skin(p, both.frames[row]);
     const BackingSurfaces behind(backing, both.frame, skin.points, base.teeth,
-                                 p.jaw_now_from_rest[both.frames[row]],
-                                 p.upper_teeth_now_from_rest);
+                                 p.jaw_now_from_rest[both.frames[row]], p.upper_teeth_now_from_rest,
+                                 gaze_in(p, both.frames[row]));
     sheet.pictures[cell] =
         change ? draw_change_at_rest(both, cameras[0], range_mm, behind, skin)
                : render::SheetPicture{

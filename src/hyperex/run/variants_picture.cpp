@@ -119,7 +119,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
                          const render::Camera& camera) {
     const BackingSurfaces behind(backing, frame, skin.mesh.points, base.teeth,
                                  own_run.jaw_now_from_rest[shown],
-                                 own_run.upper_teeth_now_from_rest);
+                                 own_run.upper_teeth_now_from_rest, gaze_in(own_run, shown));
     return render::render(behind.with(skin), camera, size);
   };
   const auto cameras = cameras_on(shown_points(face_box(base.inputs.landmarks, frame),

@@ -78,6 +78,7 @@ struct FaceSession::Impl {
   void finish_search();
 
   simulate::Simulator& simulator_of(std::size_t number);
+  void add_gaze(simulate::Performance& performance) const;
 
   void run_base(const simulate::RunCallbacks& callbacks);
   void run_variants(const simulate::RunCallbacks& callbacks);

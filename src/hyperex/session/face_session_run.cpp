@@ -58,6 +58,13 @@ simulate::Simulator& FaceSession::Impl::simulator_of(std::size_t number) {
   return *own;
 }
 
+void FaceSession::Impl::add_gaze(simulate::Performance& performance) const {
+  if (!inputs.gaze) return;
+  performance.gaze.clear();
+  for (const double time_s : performance.frame_time_s)
+    performance.gaze.push_back(inputs.gaze->at(time_s));
+}
+
 void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
   if (!stale) return;
   begin_stage("simulating");
@@ -75,6 +82,7 @@ void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
   } else {
     simulation = run_with_bar(*simulator, callbacks);
   }
+  add_gaze(simulation.performance);
   Progress measuring("measuring", 0);
   symmetry = symmetry_measures(scene, inputs, face.at_rest, simulation.performance,
                                twin ? *twin : no_twin());
@@ -139,6 +147,7 @@ void FaceSession::Impl::run_variants_together(const std::vector<std::size_t>& wh
       own.set_options(run.options);
       run.simulation = own.run({.progress = [&](double share) { reached(w, own_share * share); },
                                 .cancelled = cancelled});
+      add_gaze(run.simulation.performance);
       MirroredTwin its_twin =
           simulate_variants_twin(run.scene, run.inputs, run.field ? &*run.field : nullptr,
                                  face.at_rest.plane, own, *twin, cancelled);
@@ -159,6 +168,7 @@ void FaceSession::Impl::run_variants_together(const std::vector<std::size_t>& wh
 void FaceSession::Impl::run_variant(std::size_t i, const simulate::RunCallbacks& callbacks) {
   VariantRun& run = runs[i];
   run.simulation = simulator_of(i + 1).run(callbacks);
+  add_gaze(run.simulation.performance);
   run.symmetry =
       symmetry_measures(run.scene, run.inputs, face.at_rest, run.simulation.performance, no_twin());
   states[i].stale = states[i].has_bands = false;

@@ -70,6 +70,7 @@ Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& 
   in.pose_variance = recording.pose_variance;
   in.lasts_s = recording.lasts_s;
   in.lead_s = recording.lead_s;
+  in.gaze = recording.gaze;
   problems.add(files.scan.problems);
   problems.add(files.recording.problems);
   const bool to_find =

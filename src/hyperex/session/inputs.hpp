@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hyperex/anatomy/bones.hpp"
 #include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/core/note.hpp"
+#include "hyperex/expression/gaze.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
@@ -35,6 +37,8 @@ struct Inputs {
   /// The part of lasts_s before time.start_s, in which the run leads the face from rest into the
   /// recording; in the recording's own seconds.
   double lead_s = 0;
+  /// How the eyes turn, in the run's seconds; nothing where the recording does not have it.
+  std::optional<expression::GazeTrack> gaze;
   std::vector<std::string> driven;  ///< names of the driven points
   /// What was guessed, placed or filled, and probable mistakes with their remedies, in the order in
   /// which they were found.

@@ -76,6 +76,7 @@ motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
         {"recording.weight_jumps", doubtful_weights_sentence(mended)}})
     if (!sentence.empty()) in.notes.push_back(make_warning(id, sentence, key));
   warn_of_weights(options, shapes, model, in);
+  in.gaze = expression::gaze_of(shapes);
   return m;
 }
 
@@ -240,6 +241,8 @@ void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, I
   m = motion::with_point_gains(m, scene.motion.point_gains);
   settle_jitter(scene, extent, m, in);
   m = motion::time_scaled(m, scene.motion.time_scale);
+  if (in.gaze)
+    for (double& t : in.gaze->time_s) t = scene.motion.time_scale * (t - m.time_s.front());
   if (is_read_whole(scene, extent)) {
     check_length(scene, m);
     in.lasts_s = m.time_s.back() - m.time_s.front();

@@ -19,7 +19,8 @@ motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in)
 motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::Motion& m,
                                        Extent extent, Inputs& in);
 
-/// Applies motion.point_gain and motion.time_scale, and finds the jitter. Throws InputError for
+/// Applies motion.point_gain and motion.time_scale, the latter to the gaze as well, and finds the
+/// jitter. Throws InputError for
 /// gains on points that the recording lacks, and where nothing would move.
 void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in);
 

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/report/face_backing.hpp"
+
 namespace hyperex::session {
 namespace {
 
@@ -52,6 +54,20 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
   if (contact.any() && report.contact.frames == 0)
     notes.push_back(make_note("contact.none", "contact: nothing touches in any frame"));
   return notes;
+}
+
+std::vector<Note> gaze_notes(const simulate::Performance& p) {
+  if (p.gaze.empty()) return {};
+  const auto [right, left] =
+      report::open_eyes(report::face_backing(p), p.skin_rest.points, report::landmarks_at_rest(p));
+  if (right && left) return {};
+  return {make_note(
+      "eyes.closed",
+      fmt::format("the recording has a gaze, but the scan has no opening at {}, where an eye that "
+                  "turns would show; the angles are known all the same (gaze.csv)",
+                  right  ? "the left eye"
+                  : left ? "the right eye"
+                         : "its eyes"))};
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,

@@ -17,6 +17,10 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
                                                 const simulate::Performance& performance,
                                                 const simulate::ContactOptions& contact);
 
+/// `eyes.closed` (a note): the recording has a gaze, and an eye of the scan has no opening through
+/// which it would show.
+std::vector<Note> gaze_notes(const simulate::Performance& performance);
+
 /// Warnings: the report's own notes (SimulationReport::notes), `lips.pass_through` (by more than
 /// 0.5 mm), `tissue.inverted` (more than 0.1 % of the tetrahedra).
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,

@@ -45,6 +45,18 @@ TEST(EyeModel, HasADarkPupilAnIrisAndAWhiteWhereTheyAre) {
   }
 }
 
+TEST(EyeModel, TurnsBothEyesToTheirGaze) {
+  const Vec3 ahead = Vec3::UnitZ();
+  const std::vector<anatomy::Eyeball> eyes = {{{-0.03, 0, 0}, ahead, 0.012},
+                                              {{0.03, 0, 0}, ahead, 0.012}};
+  const auto now = turned(eyes, {.right = {.up_rad = 0.2}, .left = {.left_rad = 0.3}});
+  ASSERT_EQ(now.size(), 2u);
+  EXPECT_EQ(now[1].centre, eyes[1].centre);
+  EXPECT_NEAR((now[0].gaze - Vec3(0, std::sin(0.2), std::cos(0.2))).norm(), 0, 1e-12);
+  EXPECT_NEAR((now[1].gaze - Vec3(std::sin(0.3), 0, std::cos(0.3))).norm(), 0, 1e-12);
+  EXPECT_TRUE(turned({}, {}).empty());
+}
+
 TEST(EyeModel, LidsTakeItsLight) {
   // A lid over its upper half, close before it.
   TriMesh lid;

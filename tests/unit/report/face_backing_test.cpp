@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "hyperex/anatomy/embedded_face.hpp"
@@ -38,6 +39,19 @@ TEST(FaceBacking, FindsEyesAndMouthOfTheEmbeddedFaceAndNotItsBorder) {
     EXPECT_EQ(opening.mouth, centre.y() < face.landmarks.at("ibug68_33").y());
     EXPECT_EQ(opening.depth_m > 0.035, centre.y() < face.landmarks.at("ibug68_33").y());
   }
+}
+
+TEST(FaceBacking, KnowsWhichEyesAreOpen) {
+  const auto& face = embedded();
+  FaceBacking backing = face_backing(face.mesh, face.landmarks);
+  using Both = std::array<bool, 2>;
+  EXPECT_EQ(open_eyes(backing, face.mesh.points, face.landmarks), (Both{true, true}));
+  // The left eye is closed: it has no opening.
+  std::erase_if(backing.openings, [&](const Opening& opening) {
+    return !opening.mouth && face.mesh.points(opening.loop.front(), 0) > 0;
+  });
+  EXPECT_EQ(open_eyes(backing, face.mesh.points, face.landmarks), (Both{true, false}));
+  EXPECT_EQ(open_eyes(backing, face.mesh.points, {}), Both{});
 }
 
 // A scan that ends on the cheeks: seen in profile, no pocket stands out behind its border.

@@ -224,7 +224,50 @@ TEST(Glb, TeethAreNodesOfWhichTheLowerMoveWithTheJaw) {
   EXPECT_GT(with.bytes, without.bytes + 1e5);
 }
 
-TEST(Glb, EyesAreThoseOfTheReportAndStandStill) {
+/// The rotation of a node in each frame, as x y z w; no rows where it does not turn.
+Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> turns_of_node(const tinygltf::Model& model,
+                                                                       const std::string& name) {
+  for (const auto& channel : model.animations.at(0).channels)
+    if (channel.target_path == "rotation" &&
+        model.nodes[std::size_t(channel.target_node)].name == name)
+      return rows_of<float, 4>(model,
+                               model.animations[0].samplers[std::size_t(channel.sampler)].output);
+  return {};
+}
+
+TEST(Glb, EyesTurnWithTheGaze) {
+  auto face = made_up_face(Surface::plain);
+  testing::add_inner_eye_corners(face.performance);
+  const auto file = scratch("gaze.glb");
+  write_glb(file, face.performance, face.scan);
+  EXPECT_EQ(turns_of_node(read_back(file), "eye_L").rows(), 0);
+  face.performance.gaze.resize(face.performance.frame_time_s.size());
+  face.performance.gaze[15] = {.right = {.up_rad = 0.2}, .left = {.left_rad = 0.3}};
+  write_glb(file, face.performance, face.scan);
+  const auto model = read_back(file);
+  const auto right = turns_of_node(model, "eye_R"), left = turns_of_node(model, "eye_L");
+  ASSERT_EQ(right.rows(), 31);
+  ASSERT_EQ(left.rows(), 31);
+  const Vec3 ahead = face_backing(face.performance).forward;
+  const auto looking = [&](const auto& turns, int frame) -> Vec3 {
+    const Eigen::Quaternionf turn(turns(frame, 3), turns(frame, 0), turns(frame, 1),
+                                  turns(frame, 2));
+    return turn.cast<double>() * ahead;
+  };
+  EXPECT_LT((looking(left, 14) - ahead).norm(), 1e-6);
+  EXPECT_NEAR(looking(left, 15).x(), std::sin(0.3), 1e-3) << "the subject's left is +x";
+  EXPECT_NEAR(looking(right, 15).x(), 0, 1e-6);
+  EXPECT_GT(looking(right, 15).y(), ahead.y() + 0.15);
+  const auto darkest_white = [](const tinygltf::Model& of) {
+    const auto& eye = of.meshes[1].primitives[0];
+    return rows_of<std::uint16_t, 4>(of, eye.attributes.at("COLOR_0")).bottomRows(64).minCoeff();
+  };
+  EXPECT_GT(darkest_white(model), 6000) << "linear, of 65535: no black part comes into sight";
+  face.performance.gaze.pop_back();
+  EXPECT_THROW(write_glb(file, face.performance, face.scan), std::invalid_argument);
+}
+
+TEST(Glb, EyesAreThoseOfTheReport) {
   auto face = made_up_face(Surface::plain);
   const auto teeth = testing::made_up_teeth();
   write_glb(scratch("no_eyes.glb"), face.performance, face.scan);

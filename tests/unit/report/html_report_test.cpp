@@ -243,6 +243,35 @@ TEST(HtmlReport, HoldsTheUpperTeethWhereSurgeryPutThem) {
             json({0, 0, 0, 1, 0.001, -0.002, 0.005}));
 }
 
+TEST(HtmlReport, HoldsTheGazeInEachFrame) {
+  auto face = made_up_face(Surface::plain);
+  testing::add_inner_eye_corners(face.performance);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  const ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  BinaryBlock none;
+  EXPECT_FALSE(replay_manifest(input, none, false).at("motion").contains("gaze"));
+  face.performance.gaze.resize(face.performance.frame_time_s.size());
+  face.performance.gaze[15].left.left_rad = 0.3;
+  const auto file = test_file("report_gaze_test.html");
+  write_html_report(file, input);
+  const std::string page = read_file(file);
+  const json manifest = json::parse(element(page, "hyperex-manifest"));
+  const auto values = stretch<float>(from_base64(element(page, "hyperex-binary")),
+                                     manifest.at("motion").at("gaze"));
+  ASSERT_EQ(values.size(), 31u * 8);
+  const auto turn = [&](std::size_t frame, std::size_t side) {
+    const float* at = values.data() + 8 * frame + 4 * side;  // x y z w
+    return Eigen::Quaternionf(at[3], at[0], at[1], at[2]);
+  };
+  const json& eye = manifest.at("eyeballs").at(1).at("gaze");
+  const Eigen::Vector3f ahead(eye[0], eye[1], eye[2]);
+  EXPECT_NEAR((turn(15, 1) * ahead).x(), std::sin(0.3), 1e-3) << "the subject's left is +x";
+  EXPECT_NEAR(turn(15, 0).w(), 1, 1e-6) << "the right eye";
+  EXPECT_NEAR(turn(14, 1).w(), 1, 1e-6) << "the frame before";
+  face.performance.gaze.pop_back();
+  EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
+}
+
 TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
   const auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);

@@ -4,6 +4,12 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
+#include "hyperex/io/csv.hpp"
+#include "hyperex/run/gaze_table.hpp"
+#include "support/test_file.hpp"
+
 namespace hyperex::run {
 namespace {
 using testing::ElementsAre;
@@ -25,6 +31,23 @@ TEST(SpreadFrames, HoldBothEndsAndThePeak) {
   EXPECT_THAT(spread_frames(81, 80), ElementsAre(0, 20, 40, 60, 80));
   EXPECT_THAT(spread_frames(2, 1), ElementsAre(0, 1));
   EXPECT_THAT(spread_frames(1, 0), ElementsAre(0));
+}
+
+TEST(GazeTable, HasTheDegreesOfEitherEyeInEachFrame) {
+  simulate::Performance performance;
+  performance.frame_time_s = {0, 0.5};
+  performance.gaze = {{}, {.right = {.up_rad = 0.1, .left_rad = -0.2}, .left = {.up_rad = 0.3}}};
+  const auto file = test_file("gaze_table_test.csv");
+  write_gaze_csv(file, performance);
+  const io::CsvTable table = io::read_csv(file);
+  EXPECT_THAT(table.names, ElementsAre("time_s", "eye_yaw_R_deg", "eye_pitch_R_deg",
+                                       "eye_yaw_L_deg", "eye_pitch_L_deg"));
+  ASSERT_EQ(table.values.rows(), 2);
+  EXPECT_TRUE(table.values.row(0).isZero());
+  constexpr double rad_deg = 180 / std::numbers::pi;
+  Eigen::RowVectorXd second(5);
+  second << 0.5, -0.2 * rad_deg, 0.1 * rad_deg, 0, 0.3 * rad_deg;
+  EXPECT_TRUE(table.values.row(1).isApprox(second, 1e-12)) << table.values;
 }
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include "hyperex/motion/rest.hpp"
+#include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/note_matchers.hpp"
 #include "unit/scene/scene_files.hpp"
@@ -87,6 +89,53 @@ TEST(Expressions, PointsThatWeightsMoveAreNotMendedOneByOne) {
   };
   for (const int point : {lip, corner})
     EXPECT_NEAR(moved_m(point, 21) / moved_m(point, 30), 1 / 0.3, 0.3) << point;
+}
+
+/// Both eyes look to the left by half; then the left one looks up.
+class Looking : public testing::Test {
+ protected:
+  scene::Scene scene(const std::string& keys) const {
+    folder_.write("look.csv",
+                  "time_s,jawOpen,eyeLookOutLeft,eyeLookInRight,eyeLookUpLeft\n"
+                  "5,0,0,0,0\n5.5,0.1,0.5,0.5,0\n6,0.1,0,0,1\n");
+    return read_scene(folder_.write(
+        "look.toml", "scan.file = \"embedded\"\nmotion.arkit = \"look.csv\"\n" + keys));
+  }
+  static constexpr double kHalf_deg = 0.5 * expression::kLookAside_deg;
+
+ private:
+  SceneFolder folder_;
+};
+
+TEST_F(Looking, CountsFromTheStartOfTheRun) {
+  const auto yaw_deg = [&](const std::string& keys, double time_s) {
+    return expression::degrees_of(read_inputs(scene(keys)).gaze.value().at(time_s))[2];
+  };
+  EXPECT_NEAR(yaw_deg("", 0.25), 0.5 * kHalf_deg, 1e-6);
+  EXPECT_NEAR(yaw_deg("", 0.5), kHalf_deg, 1e-6);
+  EXPECT_NEAR(yaw_deg("motion.time_scale = 2\n", 1), kHalf_deg, 1e-6);
+  EXPECT_NEAR(yaw_deg("time.start_s = 0.5\n", motion::rest_lead_s), kHalf_deg, 1e-6)
+      << "a run that begins there leads the face from rest first";
+}
+
+TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
+  FaceSession face(scene("drive.by = \"displacement\"\nmesh.element_size_mm = 10\n"
+                         "mesh.layers = 1\ntime.frame_rate_hz = 5\n"),
+                   {.certainty = Certainty::on_request});
+  const FaceResult variant = face.variant("stiff", {{"tissue.young_kpa", 300}});
+  for (const simulate::Performance* one :
+       {&face.simulation().performance, &variant.performance()}) {
+    ASSERT_EQ(one->gaze.size(), one->frame_time_s.size());
+    EXPECT_NEAR(one->frame_time_s[2], 0.4, 1e-9);
+    const auto degrees = expression::degrees_of(one->gaze[2]);
+    EXPECT_NEAR(degrees[0], 0.8 * kHalf_deg, 1e-6) << "the right eye, to the left";
+    EXPECT_NEAR(degrees[2], 0.8 * kHalf_deg, 1e-6);
+  }
+  EXPECT_THAT(face.notes(), testing::Not(testing::Contains(test::has_id("eyes.closed"))));
+}
+
+TEST(Expressions, WithoutAGazeTurnNoEyes) {
+  EXPECT_FALSE(with_wrong_jaw(0, 0).gaze);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "support/note_matchers.hpp"
 
 namespace hyperex::session {
@@ -50,6 +51,24 @@ TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
   EXPECT_THAT(notes_on_contact_and_elements(report, p, {}), ElementsAre());
   p.model.strain = simulate::Strain::finite;
   EXPECT_THAT(run_warnings(report, p), ElementsAre(says("these elements")));
+}
+
+TEST(GazeNotes, SayWhichEyesOfTheScanAreClosed) {
+  const anatomy::EmbeddedFace face = anatomy::embedded_face();
+  simulate::Performance p;
+  p.skin_rest = face.mesh;
+  p.landmarks.time_s = {0};
+  for (const auto& [name, at] : face.landmarks) p.landmarks.names.push_back(name);
+  p.landmarks.positions = {Points(Eigen::Index(face.landmarks.size()), 3)};
+  Eigen::Index row = 0;
+  for (const auto& [name, at] : face.landmarks) p.landmarks.positions[0].row(row++) = at;
+  EXPECT_THAT(gaze_notes(p), ElementsAre()) << "without a gaze";
+  p.gaze.resize(1);
+  EXPECT_THAT(gaze_notes(p), ElementsAre()) << "its eyes are open";
+  p.landmarks.names.clear();
+  p.landmarks.positions.clear();
+  EXPECT_THAT(gaze_notes(p),
+              ElementsAre(AllOf(is_note("eyes.closed"), says("at its eyes"), says("gaze.csv"))));
 }
 
 TEST(RunWarnings, TheReportsOwnNotesComeFirst) {

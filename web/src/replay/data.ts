@@ -94,6 +94,8 @@ export interface Replay {
   weights: Float32Array;
   maxErrorMm: number;
   maxDisplacementMm: number;
+  /** Frames x 8: quaternions x y z w of the right and the left eye since looking ahead; null where not recorded. */
+  gaze: Float32Array | null;
   landmarks: { names: string[]; timeS: number[]; positions: Float32Array };
   driven: { names: string[]; points: Vec3[] };
   held: Vec3[];
@@ -255,6 +257,7 @@ export function movingOf(manifest: MovingManifest, block: Block): Moving {
     weights: block.float32(motion.weights),
     maxErrorMm: motion.max_error_mm,
     maxDisplacementMm: motion.max_displacement_mm,
+    gaze: motion.gaze ? block.float32(motion.gaze) : null,
     landmarks: {
       names: manifest.landmarks.names,
       timeS: manifest.landmarks.time_s,

@@ -105,6 +105,8 @@ export interface Manifest {
     jaw?: Stretch;
     /** The pose that surgery gave the upper teeth: quaternion x y z w and translation. */
     upper_teeth?: number[] | null;
+    /** Where the recording has it: frames x 8, quaternions x y z w of the right and the left eye since looking ahead. */
+    gaze?: Stretch;
   };
   /** Positions: samples x names x 3; NaN where a point has none. */
   landmarks: { names: string[]; time_s: number[]; positions: Stretch };

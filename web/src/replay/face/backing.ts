@@ -5,7 +5,7 @@
 import { BufferAttribute, BufferGeometry, DoubleSide, Group, type Matrix4, Mesh, MeshBasicMaterial, Vector3 } from 'three';
 import { linearOf } from './colour';
 import type { Opening, Replay } from '../data';
-import { eyesOf } from './eyes';
+import { Eyes } from './eyes';
 
 class Pocket {
   readonly mesh: Mesh;
@@ -84,13 +84,15 @@ export class Backing {
   readonly object = new Group();
   /** How much light reaches what is behind the lips, 0 to 1. */
   lightInMouth = 1;
+  readonly eyes: Eyes;
   private readonly pockets: Pocket[];
   private readonly mouth: Int32Array | undefined;
 
   constructor(replay: Replay) {
     this.mouth = replay.openings.find(({ jaw }) => jaw.some((share) => share > 0))?.loop;
     this.pockets = replay.openings.map((opening) => new Pocket(opening, replay.points));
-    this.object.add(...this.pockets.map(({ mesh }) => mesh), ...eyesOf(replay));
+    this.eyes = new Eyes(replay);
+    this.object.add(...this.pockets.map(({ mesh }) => mesh), ...this.eyes.objects);
   }
 
   follow(points: Float32Array, jaw: Matrix4): void {

@@ -5,6 +5,7 @@ import {
   AdditiveBlending, BufferAttribute, BufferGeometry, Group, Mesh, MeshStandardMaterial, Quaternion, SphereGeometry, Vector3,
 } from 'three';
 import { linearOf } from './colour';
+import { EyeLight } from './eye_light';
 import type { Replay } from '../data';
 
 const materials = {
@@ -38,24 +39,81 @@ function cornea(): BufferGeometry {
   return cap;
 }
 
-function ball(model: NonNullable<Replay['eyeModel']>, light: Uint8Array): BufferGeometry {
-  const geometry = new BufferGeometry();
-  geometry.setAttribute('position', new BufferAttribute(model.points, 3));
-  geometry.setAttribute('normal', new BufferAttribute(model.points, 3)); // a sphere of radius 1
-  const colour = Float32Array.from(model.colours, (byte, i) => linearOf(byte) * linearOf(light[Math.floor(i / 3)]));
-  geometry.setAttribute('color', new BufferAttribute(colour, 3));
-  geometry.setIndex(new BufferAttribute(model.triangles, 1));
-  return geometry;
+const ahead = new Vector3(0, 0, 1);
+/** A turn by less leaves the light as it is, radians. */
+const leastTurn = 0.002;
+const now = new Quaternion();
+const after = new Quaternion();
+
+/** An eyeball about its centre. */
+class Ball {
+  readonly object = new Group();
+  private readonly geometry = new BufferGeometry();
+  /** Linear, without light. */
+  private readonly colours: Float32Array;
+  private readonly light: EyeLight;
+  private readonly lit: Float32Array;
+  private readonly rest: Quaternion;
+  private readonly fromRest: Quaternion;
+  private readonly turned = new Quaternion();
+
+  constructor(model: NonNullable<Replay['eyeModel']>, { centre, gaze, radiusM, light }: Replay['eyeballs'][number]) {
+    const { geometry, object } = this;
+    this.colours = Float32Array.from(model.colours, linearOf);
+    this.light = new EyeLight(model.points, light);
+    this.lit = new Float32Array(light.length);
+    geometry.setAttribute('position', new BufferAttribute(model.points, 3));
+    geometry.setAttribute('normal', new BufferAttribute(model.points, 3)); // a sphere of radius 1
+    geometry.setAttribute('color', new BufferAttribute(new Float32Array(model.points.length), 3));
+    geometry.setIndex(new BufferAttribute(model.triangles, 1));
+    object.add(new Mesh(geometry, materials.ball), new Mesh(cornea(), materials.cornea));
+    this.rest = new Quaternion().setFromUnitVectors(ahead, new Vector3(...gaze));
+    this.fromRest = this.rest.clone().invert();
+    object.quaternion.copy(this.rest);
+    object.position.set(...centre);
+    object.scale.setScalar(radiusM);
+    this.shade();
+  }
+
+  /** From how it stands at rest. */
+  turn(turn: Quaternion): void {
+    const { object, rest, fromRest, turned } = this;
+    object.quaternion.multiplyQuaternions(turn, rest);
+    if (turned.angleTo(now.multiplyQuaternions(fromRest, object.quaternion)) < leastTurn) return;
+    turned.copy(now);
+    this.shade();
+  }
+
+  private shade(): void {
+    this.light.after(this.turned, this.lit);
+    const colour = this.geometry.getAttribute('color') as BufferAttribute;
+    const out = colour.array as Float32Array;
+    for (let i = 0; i < out.length; ++i) out[i] = this.colours[i] * this.lit[Math.floor(i / 3)];
+    colour.needsUpdate = true;
+  }
 }
 
-export function eyesOf({ eyeballs, eyeModel }: Replay): Group[] {
-  if (!eyeModel) return [];
-  return eyeballs.map(({ centre, gaze, radiusM, light }) => {
-    const eye = new Group();
-    eye.add(new Mesh(ball(eyeModel, light), materials.ball), new Mesh(cornea(), materials.cornea));
-    eye.quaternion.copy(new Quaternion().setFromUnitVectors(new Vector3(0, 0, 1), new Vector3(...gaze)));
-    eye.position.set(...centre);
-    eye.scale.setScalar(radiusM);
-    return eye;
-  });
+/** The right and the left eye. */
+export class Eyes {
+  readonly objects: Group[];
+  private readonly balls: Ball[];
+
+  constructor({ eyeballs, eyeModel }: Replay) {
+    this.balls = eyeModel ? eyeballs.map((eye) => new Ball(eyeModel, eye)) : [];
+    this.objects = this.balls.map(({ object }) => object);
+  }
+
+  /** `gaze`: as in `Replay`. `frame`: may be fractional; interpolated as in the animated glTF. */
+  turn(gaze: Float32Array | null, frame: number): void {
+    const first = Math.floor(frame);
+    this.balls.forEach((ball, side) => {
+      if (!gaze) {
+        ball.turn(now.identity());
+        return;
+      }
+      const second = Math.min(first + 1, gaze.length / 8 - 1);
+      const at = (which: number) => 8 * which + 4 * side;
+      ball.turn(now.fromArray(gaze, at(first)).slerp(after.fromArray(gaze, at(second)), frame - first));
+    });
+  }
 }

@@ -155,6 +155,7 @@ export class FaceBody {
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
     this.backing.follow(this.shape.position, this.teeth.moveTo(face, frame));
+    this.backing.eyes.turn(this.replay.gaze, frame);
     this.teeth.light = this.backing.lightInMouth;
     for (const overlay of this.overlays)
       if (overlay.object.visible) overlay.follow(this.shape.displacement);
