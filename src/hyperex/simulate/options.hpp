@@ -61,8 +61,12 @@ constexpr auto words_of(Mandible) {
                     Word{"free", Mandible::free}};
 }
 
+/// Of options of SupportOptions that muscles replace (MuscleOptions), or do not use.
+inline constexpr const char* kNotByMuscles = "drive.by = \"displacement\" or \"reactions\"";
+
 /// Unit and bounds of an elastic foundation's stiffness per area.
-inline constexpr OptionDetails kFoundation{.unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}};
+inline constexpr OptionDetails kFoundation{
+    .unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}, .only_where = kNotByMuscles};
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
 /// surface and the bone, stiff across the layer, soft along it.
@@ -104,7 +108,8 @@ struct SupportOptions {
   bool operator==(const SupportOptions&) const = default;
 
   static constexpr const char* about =
-      "What holds the tissue on its inner surface and at its border.";
+      "What holds the tissue on its inner surface and at its border. Where drive.by = \"muscles\" "
+      "the stiffnesses (in kPa/mm) have no effect: muscles have their own.";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(border_held),
@@ -125,7 +130,8 @@ struct SupportOptions {
              kFoundation);
     v.option(HX_MEMBER(jaw_points),
              "Points whose motion rotates the jaw. Empty: those of the chin that the recording "
-             "has.");
+             "has. Where drive.by = \"muscles\" all driven points turn it, whatever is given here.",
+             {.only_where = kNotByMuscles});
     v.option(HX_MEMBER(teeth_layer), "The layer between lips and teeth.", {.in_scene = false});
     v.option(HX_MEMBER(teeth_reach_m), "How far from the lips that layer reaches.",
              {.unit = kMillimetres, .bounds = {0, 0.1}, .in_scene = false});

@@ -69,8 +69,33 @@ TEST(DriveChoice, AKeyThatMakesDisplacementDriveIsWarnedOf) {
   EXPECT_THAT(warned({"region.measured=all"}),
               ElementsAre(AllOf(is_warning("drive.by_key"), says("region.measured"),
                                 says("and region.measured = \"none\""))));
-  for (const char* by : {"displacement", "muscles", "reactions"})
+  for (const char* by : {"displacement", "reactions"})
     EXPECT_THAT(warned({"support.field_kpa_per_mm=5", std::string("drive.by=") + by}), IsEmpty());
+}
+
+TEST(DriveChoice, KeysOfSupportThatMusclesDoNotUseAreWarnedOf) {
+  const std::vector<std::string> keys = {"drive.by=muscles", "support.field_kpa_per_mm=5",
+                                         "support.jaw_points=[\"ibug68_8\"]"};
+  EXPECT_THAT(drive_warnings(example("one_sided_smile.toml", keys)),
+              ElementsAre(AllOf(is_warning("support.idle"), says("muscles drive the face"),
+                                says(": support.field_kpa_per_mm, support.jaw_points"))));
+  EXPECT_THAT(
+      drive_warnings(example("one_sided_smile.toml", {"support.jaw_points=[\"ibug68_8\"]"})),
+      ElementsAre(is_warning("support.idle")))
+      << "muscles drive where nothing else is said";
+  for (const char* used : {"support.border=free", "support.skull=held", "support.mandible=free"})
+    EXPECT_THAT(drive_warnings(example("one_sided_smile.toml", {"drive.by=muscles", used})),
+                IsEmpty())
+        << used;
+}
+
+TEST(DriveChoice, KeysOfSupportThatOnlyAVariantGivesAreWarnedOf) {
+  Scene scene = example("variants.toml", {"drive.by=muscles"});
+  for (Variant& variant : scene.variants) variant.scene.drive.by = DriveBy::muscles;
+  EXPECT_THAT(drive_warnings(scene),
+              ElementsAre(AllOf(is_warning("support.idle"), says("support.field_kpa_per_mm"))));
+  scene.variants.back().scene.drive.by = DriveBy::displacement;
+  EXPECT_THAT(drive_warnings(scene), IsEmpty()) << "a variant uses them";
 }
 
 TEST(DriveChoice, AKeyOfAVariantIsWarnedOfWithItsName) {
