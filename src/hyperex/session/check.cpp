@@ -17,6 +17,7 @@ std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   const auto expected = checked_cost(scene, inputs, Extent::quick);
   if (cost && expected) *cost = sentence_of(*expected);
   std::vector<Note> notes = std::move(inputs.notes);
+  notes.push_back(drive_choice(scene).note());
   append(notes, drive_warnings(scene));
   const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||

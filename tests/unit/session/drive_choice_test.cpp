@@ -139,6 +139,15 @@ TEST(DriveChoice, IsWarnedOfByCheck) {
               Contains(is_warning("region.idle")));
 }
 
+TEST(DriveChoice, IsNotedByCheck) {
+  for (const std::vector<std::string>& changes :
+       {std::vector<std::string>{}, {"drive.by=displacement"}, {"region.measured=all"}}) {
+    const Scene scene = example("one_sided_smile.toml", changes);
+    EXPECT_THAT(check(scene),
+                Contains(make_note("drive.chosen", drive_choice(scene).why, "drive.by")));
+  }
+}
+
 TEST(DriveChoice, HoldsForTheSceneAndIsNoted) {
   const Scene scene = example("one_sided_smile.toml");
   EXPECT_EQ(scene.drive.by, DriveBy::displacement);
