@@ -259,7 +259,8 @@ struct DriveOptions {
         "and variants respond to the same forces. Where it is not given, muscles drive, unless the "
         "variants say otherwise. A scene or variant that sets region.measured or a stiffness of "
         "[support] (in kPa/mm), which muscles do not use, is driven by displacement, with a "
-        "warning. A run, hyperex check and the studio say which and why.");
+        "warning. A run, hyperex check and the studio say which and why.",
+        {.scene_default = "muscles"});
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone.",
