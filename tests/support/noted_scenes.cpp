@@ -244,6 +244,8 @@ const std::vector<NotedScene>& noted_scenes() {
       {"law.idle", true, "tissue.law=\"yeoh\"", nullptr},
       {"region.idle", false, "region.blend_mm=1", nullptr},
       {"support.idle", false, "drive.by=\"muscles\"\nsupport.field_kpa_per_mm=5", nullptr},
+      {"keys.idle", false, "tissue.strain=\"finite\"\ntissue.yeoh_c20=1\ndrive.by=\"displacement\"",
+       nullptr},
       {"drive.by_key", false, "support.field_kpa_per_mm=5", nullptr},
       {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
       {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",

@@ -93,6 +93,8 @@ constexpr NoteKind kKinds[] = {
   warning("support.idle", "drive.by",
     "Stiffnesses or jaw points of [support] are given, and muscles drive the scene and all of its "
     "variants."),
+  warning("keys.idle", "",
+    "Keys are given that another key leaves without effect. `key` is that other key."),
   warning("drive.by_key", "drive.by",
     "Not drive.by but another key, which muscles do not use, makes displacement drive the face."),
   warning("skin.far_from_scan", "mesh.element_size_mm",

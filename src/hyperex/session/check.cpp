@@ -6,6 +6,7 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
+#include "hyperex/session/idle_keys.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/run_cost.hpp"
 
@@ -19,6 +20,7 @@ std::vector<Note> check(const scene::Scene& scene, std::string* cost) {
   std::vector<Note> notes = std::move(inputs.notes);
   notes.push_back(drive_choice(scene).note());
   append(notes, drive_warnings(scene));
+  append(notes, idle_keys_warnings(scene));
   const auto has_regions = [](const scene::Scene& s) { return !s.tissue.regions.empty(); };
   if (has_regions(scene) ||
       std::any_of(scene.variants.begin(), scene.variants.end(),

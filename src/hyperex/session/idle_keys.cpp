@@ -5,79 +5,79 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <string>
-#include <vector>
+#include <string_view>
 
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/drive_choice.hpp"
 
 namespace hyperex::session {
+using simulate::DriveBy;
+
 namespace {
 
-/// Whether a condition holds for the scene or for a variant.
-template <class Condition>
-bool holds_somewhere(const scene::Scene& scene, const Condition& holds) {
-  return holds(scene) || std::ranges::any_of(scene.variants, [&](const scene::Variant& variant) {
-           return holds(variant.scene);
-         });
+/// Whether a given key is without effect in the scene and in each of its variants.
+template <class Act>
+bool is_idle(const scene::Scene& scene, const std::string& key, const Act& act) {
+  const bool of_scene = scene.origins.contains(key);
+  if (of_scene && act(scene, drive_choice(scene).by)) return false;
+  bool given = of_scene;
+  for (const scene::Variant& variant : scene.variants) {
+    if (!of_scene && !variant.changes.contains(key)) continue;
+    if (act(variant.scene, variant.scene.drive.by)) return false;
+    given = true;
+  }
+  return given;
 }
 
-bool is_given(const scene::Scene& scene, const std::string& key) {
-  return scene.origins.contains(key) ||
-         std::ranges::any_of(scene.variants, [&](const scene::Variant& variant) {
-           return variant.changes.contains(key);
-         });
+std::optional<Note> warning_of(const std::vector<std::string>& idle, const char* id,
+                               std::string_view why, const std::string& by = "") {
+  if (idle.empty()) return std::nullopt;
+  return make_warning(id, fmt::format("without effect, as {}: {}", why, fmt::join(idle, ", ")), by);
 }
 
-/// Names the keys of a kind that the scene or a variant gives; nothing where none is given. `why`:
-/// "tissue.strain is not \"finite\"".
-template <class OfKind>
+/// Names the idle keys among those that act `only_where` a condition holds.
+template <class Act>
 std::optional<Note> idle_keys_warning(const scene::Scene& scene, const char* id,
-                                      const OfKind& of_kind, const char* why) {
+                                      std::string_view only_where, const Act& act,
+                                      const char* why) {
   std::vector<std::string> idle;
   for (const scene::Key& key : scene::keys())
-    if (of_kind(key) && is_given(scene, key.name)) idle.push_back(key.name);
-  if (idle.empty()) return std::nullopt;
-  return make_warning(id, fmt::format("without effect, as {}: {}", why, fmt::join(idle, ", ")));
-}
-
-bool muscles_drive_all(const scene::Scene& scene) {
-  constexpr auto muscles = simulate::DriveBy::muscles;
-  return drive_choice(scene).by == muscles &&
-         std::ranges::all_of(scene.variants, [](const scene::Variant& variant) {
-           return variant.scene.drive.by == muscles;
-         });
+    if (key.only_where == only_where && is_idle(scene, key.name, act)) idle.push_back(key.name);
+  return warning_of(idle, id, why);
 }
 
 }  // namespace
 
 std::optional<Note> idle_law_warning(const scene::Scene& scene) {
-  if (holds_somewhere(
-          scene, [](const scene::Scene& s) { return s.model.strain == simulate::Strain::finite; }))
-    return std::nullopt;
   return idle_keys_warning(
-      scene, "law.idle",
-      [](const scene::Key& key) { return key.only_where == fem::Hyperelastic::only_where; },
+      scene, "law.idle", fem::Hyperelastic::only_where,
+      [](const scene::Scene& s, DriveBy) { return s.model.strain == simulate::Strain::finite; },
       "tissue.strain is not \"finite\"");
 }
 
 std::optional<Note> idle_region_warning(const scene::Scene& scene) {
-  if (holds_somewhere(scene, [](const scene::Scene& s) {
-        return s.region.measured != simulate::Measured::none;
-      }))
-    return std::nullopt;
   return idle_keys_warning(
-      scene, "region.idle",
-      [](const scene::Key& key) { return key.only_where == simulate::RegionOptions::only_where; },
+      scene, "region.idle", simulate::RegionOptions::only_where,
+      [](const scene::Scene& s, DriveBy) { return s.region.measured != simulate::Measured::none; },
       "region.measured is \"none\"");
 }
 
 std::optional<Note> idle_support_warning(const scene::Scene& scene) {
-  if (!muscles_drive_all(scene)) return std::nullopt;
   return idle_keys_warning(
-      scene, "support.idle",
-      [](const scene::Key& key) { return key.only_where == simulate::kNotByMuscles; },
+      scene, "support.idle", simulate::kNotByMuscles,
+      [](const scene::Scene&, DriveBy drive) { return drive != DriveBy::muscles; },
       "muscles drive the face");
+}
+
+std::vector<Note> idle_keys_warnings(const scene::Scene& scene) {
+  std::vector<Note> warnings;
+  for (const IdleRule& rule : idle_rules()) {
+    std::vector<std::string> idle;
+    for (const std::string& key : rule.keys)
+      if (is_idle(scene, key, rule.act)) idle.push_back(key);
+    add(warnings, warning_of(idle, "keys.idle", rule.why, rule.by));
+  }
+  return warnings;
 }
 
 }  // namespace hyperex::session

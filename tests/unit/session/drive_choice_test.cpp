@@ -94,8 +94,12 @@ TEST(DriveChoice, KeysOfSupportThatOnlyAVariantGivesAreWarnedOf) {
   for (Variant& variant : scene.variants) variant.scene.drive.by = DriveBy::muscles;
   EXPECT_THAT(drive_warnings(scene),
               ElementsAre(AllOf(is_warning("support.idle"), says("support.field_kpa_per_mm"))));
-  scene.variants.back().scene.drive.by = DriveBy::displacement;
-  EXPECT_THAT(drive_warnings(scene), IsEmpty()) << "a variant uses them";
+  Variant& other = scene.variants.front();
+  other.scene.drive.by = DriveBy::displacement;
+  EXPECT_THAT(drive_warnings(scene), ElementsAre(is_warning("support.idle")))
+      << "another variant would use it, and does not give it";
+  other.changes["support.field_kpa_per_mm"] = 0.5;
+  EXPECT_THAT(drive_warnings(scene), IsEmpty()) << "a variant uses it";
 }
 
 TEST(DriveChoice, AKeyOfAVariantIsWarnedOfWithItsName) {
