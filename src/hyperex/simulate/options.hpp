@@ -264,9 +264,8 @@ struct DriveOptions {
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone. Muscles use it "
-             "where at "
-             "most 20 of the driven points lie below the nose; with more of them it is 15 mm, "
-             "whatever is given here.",
+             "where at most 20 of the driven points lie below the nose; with more of them it is "
+             "15 mm, whatever is given here.",
              {.unit = kMillimetres, .bounds = {0, 0.03}});
     v.option(HX_MEMBER(still_points),
              "Landmarks of the skin that are fixed; none of them may be driven.");
