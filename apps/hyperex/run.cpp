@@ -60,8 +60,10 @@ std::string uncertainty_line(const nlohmann::ordered_json& summary) {
     shares += fmt::format("{}{:.0f}", comma, 100 * (*at)["determined"].get<double>());
   }
   if (errors.empty()) return "";
-  return fmt::format("expected error: {}; the driven points determine {} % of their variance\n",
-                     errors, shares);
+  return fmt::format(
+      "expected error of the skin between the driven points: {}; the points determine {} % of its "
+      "variance\n",
+      errors, shares);
 }
 
 void run(const RunOptions& options) {
@@ -78,7 +80,8 @@ void run(const RunOptions& options) {
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
   const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(
-      "{} frames, {} steps, largest displacement {:.1f} mm, lips {:.1f} mm apart, {:.1f} s in all\n"
+      "{} frames, {} steps, largest displacement {:.1f} mm, lips at most {:.1f} mm apart, {:.1f} s "
+      "in all\n"
       "{}{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
@@ -108,7 +111,7 @@ void run(const RunOptions& options) {
       {"summary.json", "counts, times, options"}};
   for (const auto& [name, use] : files)
     if (std::filesystem::exists(*options.out / name))
-      std::cout << fmt::format("  {:<22} {}\n", name, use);
+      std::cout << fmt::format("  {:<23} {}\n", name, use);
 }
 
 }  // namespace

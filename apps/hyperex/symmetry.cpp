@@ -102,7 +102,7 @@ session::RecordedJitter jitter_of(const SymmetryOptions& options, const motion::
 void warn_of_unknown(const session::RecordedJitter& jitter) {
   if (!jitter.known)
     spdlog::warn(
-        "{}: how much of a difference between the sides is noise is not known; --jitter-mm X "
+        "{}; how much of a difference between the sides is noise is not known; --jitter-mm X "
         "states the jitter, 0 for exact points",
         jitter.how);
 }

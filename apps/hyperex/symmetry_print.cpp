@@ -107,10 +107,12 @@ void print_excursions(const metrics::Excursions& excursions) {
                              cell(p.left_side.peak_speed_mm_s, 1), cell(p.speed_ratio, 3),
                              cell(p.speed_correlation, 3), doubt_note(p));
   if (excursions.lowpass_hz > 0)
-    std::cout << fmt::format(
-        "excursions and speeds smoothed with a cut-off of {:g} Hz; undecided: within what jitter "
-        "and, for excursions, the head's pose make\n",
-        excursions.lowpass_hz);
+    std::cout << fmt::format("excursions and speeds smoothed with a cut-off of {:g} Hz\n",
+                             excursions.lowpass_hz);
+  if (std::ranges::any_of(pairs, [](const auto& p) {
+        return doubt_note(p).find("undecided") != std::string::npos;
+      }))
+    std::cout << "undecided: within what jitter and, for excursions, the head's pose make\n";
   if (const double mm = excursions.pairs.empty() ? 0 : excursions.pairs[0].repetition_floor_mm;
       mm > 0)
     std::cout << fmt::format(
@@ -150,7 +152,7 @@ void print_summary(const metrics::SymmetryMeasures& all, const session::Recorded
     std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
                              1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
   if (curve.known()) std::cout << '\n';
-  std::cout << jitter.how << '\n';
+  if (jitter.known) std::cout << jitter.how << '\n';  // else a warning has said it
   if (all.map && !all.map->frames.empty()) {
     const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];
     std::cout << fmt::format(

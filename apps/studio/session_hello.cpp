@@ -60,11 +60,10 @@ json described(const scene::KeyInfo& key) {
 }
 
 json keys_json() {
-  const scene::Scene defaults;
   json out = json::array();
   for (const scene::Key& key : scene::keys()) {
     json one = described(key);
-    one["default"] = key.get ? key.get(defaults) : json();
+    one["default"] = scene::default_of(key);
     out.push_back(std::move(one));
   }
   return out;

@@ -107,7 +107,7 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   write_motion(0, 81, add_noise);
   const Outcome noisy = call(quiet);
   EXPECT_THAT(noisy.out, HasSubstr("estimated from their fourth differences in time: 0.2"));
-  EXPECT_THAT(noisy.out, HasSubstr("undecided"));
+  EXPECT_THAT(noisy.out, HasSubstr("\nundecided: within what jitter"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0").out, HasSubstr("taken as exact, as --jitter-mm 0"));
   EXPECT_THAT(call(quiet + " --jitter-mm 0.3").out, HasSubstr("as --jitter-mm states it: 0.30 mm"));
   EXPECT_THAT(noisy.out, Not(HasSubstr("repetition: ")));
@@ -121,7 +121,10 @@ TEST_F(Plausible, SymmetryJudgesByTheJitterThatTheRecordingShows) {
   EXPECT_THAT(call("symmetry ran --keep-head --out s.csv").out,
               HasSubstr("from the run's summary.json: 0.17 mm"));
   write_motion(0, 12);
-  EXPECT_THAT(call(quiet).err, AllOf(HasSubstr("warning: "), HasSubstr("jitter")));
+  const Outcome short_one = call(quiet);
+  EXPECT_THAT(short_one.err, AllOf(HasSubstr("warning: "), HasSubstr("too short"),
+                                   HasSubstr("jitter; how much of a difference")));
+  EXPECT_THAT(short_one.out, Not(HasSubstr("too short"))) << "it is said once";
 }
 
 TEST_F(Plausible, SymmetryDecidesNothingWhereNoiseIsNotKnown) {
@@ -211,22 +214,23 @@ TEST_F(Plausible, SymmetryRefusesWhatNoFaceCanReachWithTheHeadToo) {
 
 TEST_F(Plausible, TheDifferenceOfTheCornersIsJudgedAloud) {
   const Outcome alike = call("run scene.toml --out alike");
-  EXPECT_THAT(alike.out,
-              ContainsRegex("mm apart: undecided, below the floor of 0\\.1[0-9]* mm \\(mesh\\)"));
+  EXPECT_THAT(
+      alike.out,
+      ContainsRegex(
+          "a difference of 0\\.[0-9] mm: undecided, below the floor of 0\\.1[0-9]* mm \\(mesh\\)"));
   write_motion(0, 16, [](motion::Motion& m) {
     for (const char* name : {"cheilion_L", "ibug68_54"})
       for (std::size_t k = 0; k < m.positions.size(); ++k)
         m.positions[k](m.index_of(name), 0) += 4e-3 * double(k) / 15;
   });
   // A short recording, whose jitter is not known.
-  const std::string unknown = ", but cannot tell, as the recording's jitter is not known\n";
+  const std::string unknown = ", but the recording cannot tell, as its jitter is not known\n";
   EXPECT_THAT(call("run scene.toml --out unknown").out, HasSubstr(unknown));
   EXPECT_THAT(call("symmetry unknown").err, HasSubstr("summary.json says that the jitter"));
   const Outcome apart = call("run scene.toml --out apart --set output.jitter_mm=0");
   EXPECT_THAT(apart.out, Not(HasSubstr(unknown)));
-  EXPECT_THAT(
-      apart.out,
-      ContainsRegex("mm apart: more than the floor of [0-9.]+ mm \\((mesh|jitter|head pose)\\)"));
+  EXPECT_THAT(apart.out, ContainsRegex("a difference of [0-9.]+ mm: more than the floor of [0-9.]+ "
+                                       "mm \\((mesh|jitter|head pose)\\)"));
 }
 
 TEST_F(Plausible, PointsThatMayMoveWithTheSkullAreAskedForByName) {

@@ -78,6 +78,10 @@ class Scenes(unittest.TestCase):
         self.assertEqual((aligned["severity"], aligned["key"]), ("note", "alignment.method"))
         self.assertIn("92", aligned["text"])
         self.assertEqual(checked["notes"], [remark["text"] for remark in checked["remarks"]])
+        drive = next(r["text"] for r in checked["remarks"] if r["id"] == "drive.chosen")
+        self.assertEqual(drive, "driven by muscles: nothing in the scene says otherwise")
+        face = hyperex.FaceSession(EXAMPLES / "mouth_open.toml", COARSE)
+        self.assertIn(drive, [note.text for note in face.notes()])
 
 
 class TissueFields(unittest.TestCase):

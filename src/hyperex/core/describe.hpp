@@ -77,6 +77,8 @@ struct OptionDetails {
   const char* none = nullptr;   ///< the word of an optional that holds nothing
   bool folder_too = false;      ///< for a path: folders are allowed
   const char* only_where = "";  ///< a condition without which it has no effect
+  /// The word of a scene that does not give it, where that is not the member's default.
+  const char* scene_default = "";
 };
 
 /// A value of an enumeration and its word, spelled once, by words_of(Enum) beside the enumeration:

@@ -93,6 +93,11 @@ constexpr NoteKind kKinds[] = {
     "Keys are given that only finite strain uses, and neither the scene nor a variant has it."),
   warning("region.idle", "region.measured",
     "Keys of [region] are given, and neither the scene nor a variant has region.measured."),
+  warning("support.idle", "drive.by",
+    "Stiffnesses or jaw points of [support] are given, and muscles drive the scene and all of its "
+    "variants."),
+  warning("keys.idle", "",
+    "Keys are given that another key leaves without effect. `key` is that other key."),
   warning("drive.by_key", "drive.by",
     "Not drive.by but another key, which muscles do not use, makes displacement drive the face."),
   warning("skin.far_from_scan", "mesh.element_size_mm",

@@ -23,7 +23,7 @@ double rounded_mm(double mm) {
 std::string floor_clause(const Json& corners, double apart_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
-  const std::string cannot_tell = "cannot tell, as the recording's jitter is not known";
+  const std::string cannot_tell = "the recording cannot tell, as its jitter is not known";
   if (floor_mm <= 0) return unknown ? ": " + cannot_tell : "";
   return fmt::format(
       ": {} the floor of {} mm ({}){}",
@@ -50,11 +50,12 @@ std::string moved_words(double mm, bool weaker) {
 }
 
 /// Where the greatest excursions differ by much less than the paths do: ", but up to 3.7 mm from
-/// base at 1.93 s".
+/// its place without the change, at 1.93 s".
 std::string path_clause(const CornerChange& c, double by_mm) {
   const double least = std::fmax(0.3, std::isnan(c.band_mm) ? 0 : c.band_mm);
   if (!(c.far_mm > least) || c.far_mm < 1.5 * std::abs(by_mm)) return "";
-  return fmt::format(", but up to {:.1f} mm from base at {:.2f} s", c.far_mm, c.far_s);
+  return fmt::format(", but up to {:.1f} mm from its place without the change, at {:.2f} s",
+                     c.far_mm, c.far_s);
 }
 
 std::string change_words(const CornerChange& c) {
@@ -74,8 +75,8 @@ std::string change_words(const CornerChange& c) {
   if (!same_way && along < 0)
     return way + fmt::format("goes {:.1f} mm the other way", -rounded_mm(along)) + band +
            path_clause(c, by);
-  return way + moved_words(by, c.weaker) + (same_way ? "" : " along its way in base") + band +
-         path_clause(c, by);
+  return way + moved_words(by, c.weaker) + (same_way ? "" : " along its way without the change") +
+         band + path_clause(c, by);
 }
 
 std::string side_words(const Json& base, const Json& variant, const std::string& side) {
@@ -106,8 +107,8 @@ std::string corners_line(const Json& summary) {
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
   const std::string line = fmt::format(
-      "corners of the mouth: right {:.1f} mm, left {:.1f} mm, {:.1f} mm apart", rounded_mm(right),
-      rounded_mm(left), std::abs(rounded_mm(left) - rounded_mm(right)));
+      "corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {:.1f} mm",
+      rounded_mm(right), rounded_mm(left), std::abs(rounded_mm(left) - rounded_mm(right)));
   return line + floor_clause(corners, std::abs(left - right)) + "\n";
 }
 

@@ -8,9 +8,9 @@
 
 namespace hyperex::run {
 
-/// One line: "corners of the mouth: right 12.7 mm, left 3.8 mm, 8.9 mm apart: more than the floor
-/// of 0.1 mm (mesh)"; empty if the corners are not known. Where the recording's jitter is not
-/// known, the line says so instead of letting the difference pass for decided.
+/// One line: "corners of the mouth: right 12.7 mm, left 3.8 mm, a difference of 8.9 mm: more than
+/// the floor of 0.1 mm (mesh)"; empty if the corners are not known. Where the recording's jitter is
+/// not known, the line says so instead of letting the difference pass for decided.
 std::string corners_line(const nlohmann::ordered_json& summary);
 
 /// The effect of each variant on the corners of the mouth, one line per variant: "  weak right:

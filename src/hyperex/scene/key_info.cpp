@@ -79,6 +79,7 @@ KeyInfo info_of(const std::string& member, const std::string& sentence,
           .folder_too = details.folder_too,
           .description = about.empty() ? sentence : about + " " + sentence,
           .only_where = details.only_where,
+          .scene_default = details.scene_default,
           .member = member_prefix + member};
 }
 

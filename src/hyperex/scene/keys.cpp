@@ -77,6 +77,11 @@ bool decides_the_drive(const std::string& key, const nlohmann::json& value) {
   return key == "drive.by" || needs_displacement(key, value);
 }
 
+nlohmann::json default_of(const Key& key) {
+  if (!key.scene_default.empty()) return key.scene_default;
+  return key.get(Scene{});
+}
+
 const Key* find_key(const std::string& name) {
   for (const Key& key : keys())
     if (key.name == name) return &key;

@@ -46,6 +46,7 @@ struct KeyInfo {
   bool folder_too = false;                ///< paths: whether a folder is allowed too
   std::string description = {};           ///< a sentence or two
   std::string only_where = {};            ///< when the key has an effect; empty: always
+  std::string scene_default = {};         ///< OptionDetails::scene_default
   std::string member = {};                ///< in the struct: "support.skull_layer.along_pa_per_m"
   std::vector<KeyInfo> columns = {};      ///< rows: the keys of each table
   std::string expected() const;           ///< "a number from 1 to 30 (mm)"
@@ -69,6 +70,10 @@ struct Section {
 const std::vector<Section>& sections();        ///< in the order of the page; "" is the top level
 const std::vector<Key>& keys();                ///< in the order of the sections
 const Key* find_key(const std::string& name);  ///< null where there is none
+
+/// The value of a scene that does not give the key, in the unit of the key. That of drive.by is
+/// what a scene chooses where no other key decides (session/drive_choice.hpp), not its member's.
+nlohmann::json default_of(const Key& key);
 
 /// A text that says what to use instead of a key of earlier versions or a constant of a law; empty
 /// for every other name.

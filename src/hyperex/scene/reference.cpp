@@ -89,11 +89,10 @@ std::string row(const std::string& name, const KeyInfo& key, const std::string& 
                      standard, allowed(key), key.description);
 }
 
-std::string default_of(const Key& key) {
+std::string default_text(const Key& key) {
   if (key.required) return "*required*";
-  // A scene chooses (session/drive_choice.hpp), and does not take the struct's value.
-  if (key.name == "drive.by") return code("\"muscles\"") + ", see its meaning";
-  const nlohmann::json value = key.get(Scene{});
+  const nlohmann::json value = default_of(key);
+  if (!key.scene_default.empty()) return code(value.dump()) + ", see its meaning";
   if (key.kind == Kind::rows || (key.kind == Kind::path && value == "")) return "";
   std::string text;
   if (!value.is_array()) return code(value.dump());
@@ -149,7 +148,7 @@ std::string reference_markdown() {
       if (section_of(key.name) != section.name) continue;
       const std::string name =
           section.name.empty() ? key.name : key.name.substr(section.name.size() + 1);
-      page += row(key.kind == Kind::rows ? "[[" + key.name + "]]" : name, key, default_of(key));
+      page += row(key.kind == Kind::rows ? "[[" + key.name + "]]" : name, key, default_text(key));
       for (const KeyInfo& column : key.columns)
         page += row("... " + column.name, column, column.required ? "*required*" : "");
     }

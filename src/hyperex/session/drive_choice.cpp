@@ -92,6 +92,7 @@ std::vector<Note> drive_warnings(const scene::Scene& scene) {
   std::vector<Note> warnings;
   add(warnings, by_key_warning(scene));
   add(warnings, idle_region_warning(scene));
+  add(warnings, idle_support_warning(scene));
   return warnings;
 }
 

@@ -41,11 +41,28 @@ double reach_m(const motion::Motion& motion, const std::string& name) {
   return most_m;
 }
 
-double reach_m(const motion::Motion& motion, const FacePart& part) {
+double reach_m(const motion::Motion& motion, const FacePart& part,
+               const std::vector<std::string>& without = {}) {
   double most_m = 0;
   for (int i = part.first; i <= part.last; ++i)
-    most_m = std::max(most_m, reach_m(motion, face::ibug(i)));
+    if (const std::string name = face::ibug(i); std::ranges::find(without, name) == without.end())
+      most_m = std::max(most_m, reach_m(motion, name));
   return most_m;
+}
+
+/// Whether a point drives: itself, under its other name, or as another point recorded at its place,
+/// as pogonion and ibug68_8 of the program's own recordings are.
+bool is_driven(const motion::Motion& motion, const std::vector<std::string>& driven,
+               const std::string& name) {
+  constexpr double kOnePlace_m = 1e-3;
+  const int own = motion.index_of(name);
+  return std::ranges::any_of(driven, [&](const std::string& one) {
+    if (one == name || face::same_place(one, name)) return true;
+    const int row = motion.index_of(one);
+    if (own < 0 || row < 0 || motion.positions.empty()) return false;
+    const Points& first = motion.positions.front();
+    return (first.row(own) - first.row(row)).norm() < kOnePlace_m;
+  });
 }
 
 /// The note counts other points that move farther than this, and names at most kMostNamed of them.
@@ -62,12 +79,9 @@ bool is_of_a_part(int number) {
 /// is not driven.
 bool is_further(const motion::Motion& motion, const std::vector<std::string>& driven,
                 const std::string& name) {
-  const auto has = [](const std::vector<std::string>& names, const std::string& one) {
-    return std::ranges::find(names, one) != names.end();
-  };
-  const std::string other = face::other_name(name);
-  if (has(driven, name) || has(driven, other)) return false;
-  const bool listed_as_other = !face::ibug_number(name) && motion.index_of(other) >= 0;
+  if (is_driven(motion, driven, name)) return false;
+  const bool listed_as_other =
+      !face::ibug_number(name) && motion.index_of(face::other_name(name)) >= 0;
   const auto number = face::ibug_number_of_place(name);
   return !listed_as_other && !(number && is_of_a_part(*number));
 }
@@ -145,7 +159,8 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
   if (!by_default(scene)) return;
   std::vector<std::string> joined, left_out;
   for (const FacePart& part : kParts) {
-    const double far_m = reach_m(motion, part);
+    // Of the outline the chin drives by default.
+    const double far_m = part.joins ? reach_m(motion, part) : reach_m(motion, part, driven);
     if (far_m < part.moves_m) continue;
     (part.joins ? joined : left_out)
         .push_back(fmt::format("{} ({:.1f} mm)", part.name, 1e3 * far_m));

@@ -61,8 +61,12 @@ constexpr auto words_of(Mandible) {
                     Word{"free", Mandible::free}};
 }
 
+/// Of options of SupportOptions that muscles replace (MuscleOptions), or do not use.
+inline constexpr const char* kNotByMuscles = "drive.by = \"displacement\" or \"reactions\"";
+
 /// Unit and bounds of an elastic foundation's stiffness per area.
-inline constexpr OptionDetails kFoundation{.unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}};
+inline constexpr OptionDetails kFoundation{
+    .unit = kKilopascalsPerMillimetre, .bounds = {0, 1e12}, .only_where = kNotByMuscles};
 
 /// The tissue slides on the bone on a layer of loose tissue: springs per area between the inner
 /// surface and the bone, stiff across the layer, soft along it.
@@ -104,7 +108,8 @@ struct SupportOptions {
   bool operator==(const SupportOptions&) const = default;
 
   static constexpr const char* about =
-      "What holds the tissue on its inner surface and at its border.";
+      "What holds the tissue on its inner surface and at its border. Where drive.by = \"muscles\" "
+      "the stiffnesses (in kPa/mm) have no effect: muscles have their own.";
   template <class Visitor>
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(border_held),
@@ -125,7 +130,8 @@ struct SupportOptions {
              kFoundation);
     v.option(HX_MEMBER(jaw_points),
              "Points whose motion rotates the jaw. Empty: those of the chin that the recording "
-             "has.");
+             "has. Where drive.by = \"muscles\" all driven points turn it, whatever is given here.",
+             {.only_where = kNotByMuscles});
     v.option(HX_MEMBER(teeth_layer), "The layer between lips and teeth.", {.in_scene = false});
     v.option(HX_MEMBER(teeth_reach_m), "How far from the lips that layer reaches.",
              {.unit = kMillimetres, .bounds = {0, 0.1}, .in_scene = false});
@@ -253,10 +259,13 @@ struct DriveOptions {
         "and variants respond to the same forces. Where it is not given, muscles drive, unless the "
         "variants say otherwise. A scene or variant that sets region.measured or a stiffness of "
         "[support] (in kPa/mm), which muscles do not use, is driven by displacement, with a "
-        "warning. The run says which and why.");
+        "warning. A run, hyperex check and the studio say which and why.",
+        {.scene_default = "muscles"});
     v.option(HX_MEMBER(patch_radius_m),
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
-             "much again where they stay closed. 0 takes the nearest node alone.",
+             "much again where they stay closed. 0 takes the nearest node alone. Muscles use it "
+             "where at most 20 of the driven points lie below the nose; with more of them it is "
+             "15 mm, whatever is given here.",
              {.unit = kMillimetres, .bounds = {0, 0.03}});
     v.option(HX_MEMBER(still_points),
              "Landmarks of the skin that are fixed; none of them may be driven.");

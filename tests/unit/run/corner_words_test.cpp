@@ -52,8 +52,10 @@ TEST(CornerWords, AWeakCornerMovesLessAndOneInStiffTissueFollowsLess) {
 
 // The corner is as far from rest as in base, but in another place.
 TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
-  EXPECT_THAT(variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
-              HasSubstr("right 6.0 to 6.4 mm, moves 2.1 mm less along its way in base (+- 0.3)"));
+  EXPECT_THAT(
+      variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
+      HasSubstr(
+          "right 6.0 to 6.4 mm, moves 2.1 mm less along its way without the change (+- 0.3)"));
   EXPECT_THAT(variant_lines(summary_of({6.0, 5.9, -5.2}, same, {"R"})),
               HasSubstr("goes 5.2 mm the other way"));
 }
@@ -71,10 +73,21 @@ TEST(CornerWords, AChangeIsNotDecidedWhereTheJitterIsNotKnown) {
   EXPECT_THAT(lines, HasSubstr("left 8.3 to 8.0 mm, undecided"));
 }
 
+TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
+  Json summary = summary_of(same, {9.98, 10.1, 10.1, 0.05}, {"R"});
+  Json& changed = summary["variants"]["table"][1];
+  changed["commissure_L_from_base_mm"] = 0.52;
+  changed["commissure_L_from_base_s"] = 1.2;
+  EXPECT_THAT(variant_lines(summary),
+              HasSubstr("left 10.0 to 10.1 mm, moves 0.1 mm farther (+- 0.1), but up to 0.5 mm "
+                        "from its place without the change, at 1.20 s\n"));
+}
+
 // 9.64 and 9.66 would be 9.6 and 9.7 if each were rounded separately.
 TEST(CornerWords, RoundsOnceSoThatAdjacentFiguresAgree) {
   const Json summary = summary_of({9.64, 9.66, 9.66}, {8.26, 6.24, 6.24}, Json::array());
-  EXPECT_THAT(corners_line(summary), HasSubstr("right 9.6 mm, left 8.3 mm, 1.3 mm apart"));
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("right 9.6 mm, left 8.3 mm, a difference of 1.3 mm"));
   EXPECT_THAT(variant_lines(summary), HasSubstr("right 9.6 mm, unchanged"));
   EXPECT_THAT(variant_lines(summary), HasSubstr("left 8.3 to 6.2 mm, follows 2.1 mm less"));
 }
@@ -83,7 +96,7 @@ TEST(CornerWords, NamesTheLargestPartOfTheFloor) {
   Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
   Json& corners = summary["symmetry"]["commissure"];
   EXPECT_THAT(corners_line(summary),
-              HasSubstr("1.0 mm apart: more than the floor of 0.1 mm (mesh)"));
+              HasSubstr("a difference of 1.0 mm: more than the floor of 0.1 mm (mesh)"));
   corners["floor_mm"] = 1.26;
   corners["undecided"] = true;
   corners["largest_part"] = "head pose";
@@ -95,11 +108,12 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
   Json& corners = summary["symmetry"]["commissure"];
   corners["undecided"] = nullptr;
   EXPECT_THAT(corners_line(summary),
-              HasSubstr("1.0 mm apart: more than the floor of 0.1 mm (mesh), but cannot tell, as "
-                        "the recording's jitter is not known\n"));
+              HasSubstr("a difference of 1.0 mm: more than the floor of 0.1 mm (mesh), but the "
+                        "recording cannot tell, as its jitter is not known\n"));
   corners["floor_mm"] = nullptr;
   EXPECT_THAT(corners_line(summary),
-              HasSubstr("1.0 mm apart: cannot tell, as the recording's jitter is not known\n"));
+              HasSubstr("a difference of 1.0 mm: the recording cannot tell, as its jitter is not "
+                        "known\n"));
 }
 
 TEST(CornerWords, AChangeWithinItsBandIsUndecided) {

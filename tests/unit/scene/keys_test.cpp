@@ -45,6 +45,15 @@ TEST(Keys, AreNamedOnceInKnownSectionsInOrder) {
   EXPECT_EQ(find_key("time.step"), nullptr);
 }
 
+TEST(Keys, HaveTheDefaultOfTheirMembersOrTheWordThatAScenesChoiceIs) {
+  for (const Key& key : keys()) {
+    if (key.name == "drive.by") continue;
+    EXPECT_TRUE(key.scene_default.empty()) << key.name;
+    EXPECT_EQ(default_of(key), key.get(Scene{})) << key.name;
+  }
+  EXPECT_EQ(default_of(*find_key("drive.by")), "muscles");
+}
+
 /// "patch_radius_mm" and "patch_radius_m" without their units.
 std::string without_unit(std::string name) {
   for (const char* ending : {"_kpa_per_mm", "_pa_per_m", "_pa_s", "_kg_m3", "_kpa", "_pa", "_mm",

@@ -69,8 +69,37 @@ TEST(DriveChoice, AKeyThatMakesDisplacementDriveIsWarnedOf) {
   EXPECT_THAT(warned({"region.measured=all"}),
               ElementsAre(AllOf(is_warning("drive.by_key"), says("region.measured"),
                                 says("and region.measured = \"none\""))));
-  for (const char* by : {"displacement", "muscles", "reactions"})
+  for (const char* by : {"displacement", "reactions"})
     EXPECT_THAT(warned({"support.field_kpa_per_mm=5", std::string("drive.by=") + by}), IsEmpty());
+}
+
+TEST(DriveChoice, KeysOfSupportThatMusclesDoNotUseAreWarnedOf) {
+  const std::vector<std::string> keys = {"drive.by=muscles", "support.field_kpa_per_mm=5",
+                                         "support.jaw_points=[\"ibug68_8\"]"};
+  EXPECT_THAT(drive_warnings(example("one_sided_smile.toml", keys)),
+              ElementsAre(AllOf(is_warning("support.idle"), says("muscles drive the face"),
+                                says(": support.field_kpa_per_mm, support.jaw_points"))));
+  EXPECT_THAT(
+      drive_warnings(example("one_sided_smile.toml", {"support.jaw_points=[\"ibug68_8\"]"})),
+      ElementsAre(is_warning("support.idle")))
+      << "muscles drive where nothing else is said";
+  for (const char* used : {"support.border=free", "support.skull=held", "support.mandible=free"})
+    EXPECT_THAT(drive_warnings(example("one_sided_smile.toml", {"drive.by=muscles", used})),
+                IsEmpty())
+        << used;
+}
+
+TEST(DriveChoice, KeysOfSupportThatOnlyAVariantGivesAreWarnedOf) {
+  Scene scene = example("variants.toml", {"drive.by=muscles"});
+  for (Variant& variant : scene.variants) variant.scene.drive.by = DriveBy::muscles;
+  EXPECT_THAT(drive_warnings(scene),
+              ElementsAre(AllOf(is_warning("support.idle"), says("support.field_kpa_per_mm"))));
+  Variant& other = scene.variants.front();
+  other.scene.drive.by = DriveBy::displacement;
+  EXPECT_THAT(drive_warnings(scene), ElementsAre(is_warning("support.idle")))
+      << "another variant would use it, and does not give it";
+  other.changes["support.field_kpa_per_mm"] = 0.5;
+  EXPECT_THAT(drive_warnings(scene), IsEmpty()) << "a variant uses it";
 }
 
 TEST(DriveChoice, AKeyOfAVariantIsWarnedOfWithItsName) {
@@ -112,6 +141,15 @@ TEST(DriveChoice, IsWarnedOfByCheck) {
               Contains(is_warning("drive.by_key")));
   EXPECT_THAT(check(example("one_sided_smile.toml", {"region.blend_mm=100"})),
               Contains(is_warning("region.idle")));
+}
+
+TEST(DriveChoice, IsNotedByCheck) {
+  for (const std::vector<std::string>& changes :
+       {std::vector<std::string>{}, {"drive.by=displacement"}, {"region.measured=all"}}) {
+    const Scene scene = example("one_sided_smile.toml", changes);
+    EXPECT_THAT(check(scene),
+                Contains(make_note("drive.chosen", drive_choice(scene).why, "drive.by")));
+  }
 }
 
 TEST(DriveChoice, HoldsForTheSceneAndIsNoted) {

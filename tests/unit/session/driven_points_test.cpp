@@ -10,13 +10,14 @@ namespace {
 using testing::Contains;
 using testing::Not;
 
-/// All 68 points, `stomion` and a point of the skull, in two samples.
+/// All 68 points, `stomion` and a point of the skull, in two samples. They are 10 mm apart.
 motion::Motion whole_face() {
   motion::Motion m;
   for (int i = 0; i < 68; ++i) m.names.push_back(face::ibug(i));
   m.names.insert(m.names.end(), {"stomion", "head_1"});
   m.time_s = {0, 1};
   m.positions.assign(2, Points::Zero(70, 3));
+  for (Points& at : m.positions) at.col(0) = Eigen::VectorXd::LinSpaced(70, 0, 0.69);
   return m;
 }
 
@@ -63,6 +64,10 @@ TEST(DrivenPoints, TheOutlineOfTheFaceIsSaidAndNotDriven) {
   EXPECT_THAT(ids(scene, moving(3, 9e-3)), testing::ElementsAre("drive.measured_not_driven"));
 }
 
+TEST(DrivenPoints, TheChinThatDrivesIsNoPartOfTheOutlineThatDoesNot) {
+  EXPECT_THAT(ids(scene::Scene(), moving(8, 9e-3)), testing::IsEmpty());
+}
+
 /// The text of `drive.measured_not_driven`; empty where there is none.
 std::string not_driven(const scene::Scene& scene, const motion::Motion& m) {
   std::vector<Note> notes;
@@ -82,7 +87,7 @@ motion::Motion with_moving(const std::vector<std::pair<std::string, double>>& na
       m.names.push_back(name);
       for (Points& at : m.positions) {
         at.conservativeResize(row + 1, 3);
-        at.row(row).setZero();
+        at.row(row) << 0.01 * row, 0, 0;
       }
     }
     m.positions[1](row, 1) = 1e-3 * far_mm;
@@ -128,6 +133,16 @@ TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
   // A landmark that has two names is listed once.
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_30", 3}, {"pronasale", 3}})),
             "recorded, but not driven: ibug68_30 (3.0 mm); drive.points selects the driven points");
+}
+
+TEST(DrivenPoints, APlaceThatDrivesUnderAnotherNameIsNotSaid) {
+  const scene::Scene scene;
+  motion::Motion m = with_moving({{"ibug68_8", 8}, {"pogonion", 8}});
+  EXPECT_EQ(not_driven(scene, m),
+            "recorded, but not driven: pogonion (8.0 mm); drive.points selects the driven points")
+      << "a marker of its own";
+  for (Points& at : m.positions) at.row(m.index_of("pogonion")) = at.row(m.index_of("ibug68_8"));
+  EXPECT_EQ(not_driven(scene, m), "");
 }
 
 TEST(DrivenPoints, NamedOnesAreKept) {

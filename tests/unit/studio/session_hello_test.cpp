@@ -62,6 +62,13 @@ TEST_F(StudioSession, TellsTheBoundsOfTheColumnsOfTablesAsTheirStructsDescribeTh
   EXPECT_EQ(volume["high"], 30);
 }
 
+TEST_F(StudioSession, TellsTheDefaultsOfAScene) {
+  const json keys = ask("hello")["keys"];
+  EXPECT_EQ(named(keys, "drive.by")["default"], "muscles");
+  EXPECT_EQ(named(keys, "tissue.young_kpa")["default"], 192.4);
+  EXPECT_EQ(named(keys, "support.border")["default"], "held");
+}
+
 TEST(Protocol, TakesTheValuesOfBoneThatACtTakes) {
   const json& field = protocol().at("/requests/ct_bones/fields/bone_hu"_json_pointer);
   EXPECT_EQ(field.at("least"), ct::bone_hu_in.least);

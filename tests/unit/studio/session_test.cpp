@@ -244,6 +244,7 @@ TEST_F(StudioSession, MusclesMoveASceneToWhichVolumeIsAdded) {
   const json soft = {{{"name", "cheek_L"}, {"young_factor", 2}}};
   EXPECT_FALSE(set({{"tissue.region", soft}}, 0).contains("error"));
   EXPECT_EQ(event("scene")->head["drive"], "displacement");
+  EXPECT_EQ(event("scene")->head["drive_why"], "driven by displacement: the scene says so");
   const json filled = {{{"name", "cheek_L"}, {"volume_ml", 2}}};
   EXPECT_FALSE(set({{"tissue.region", filled}}, 0).contains("error"));
   EXPECT_EQ(event("scene")->head["drive"], "muscles");

@@ -177,8 +177,10 @@ VolumeMesh thicken(TriMesh outer, const Eigen::VectorXd& skin_depth, const io::L
       if (given_up > 0)
         out.notes.push_back(make_note(
             "mesh.folds_given_up",
-            fmt::format("{} triangles of the simulated skin were dropped: no layer fits under them",
-                        given_up)));
+            fmt::format(
+                "triangles of the simulated skin under which no layer of tissue fits, and which "
+                "were dropped: {}",
+                given_up)));
       return mesh;
     } catch (const FoldedSurface& folded) {
       given_up += folded.triangles.size();
