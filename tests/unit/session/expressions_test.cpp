@@ -135,7 +135,7 @@ TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
 }
 
 TEST(Expressions, WithoutAGazeTurnNoEyes) {
-  EXPECT_FALSE(with_wrong_jaw(0, 0).gaze);
+  EXPECT_FALSE(with_wrong_jaw({}).gaze);
 }
 
 }  // namespace

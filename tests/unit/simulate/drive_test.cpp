@@ -188,6 +188,45 @@ TEST_F(Drive, PatchesReachTheRadius) {
   }
 }
 
+TEST_F(Drive, AFadingPatchOfTheChinHasNoStepAtItsEdge) {
+  const auto points = at_nodes(test::seven_points());
+  const std::vector<char> fading = on_chin(points, face_.landmarks);
+  const auto chin = std::find(fading.begin(), fading.end(), 1) - fading.begin();
+  ASSERT_EQ(std::count(fading.begin(), fading.end(), 1), 1);
+  EXPECT_EQ(points[std::size_t(chin)].name, "ibug68_8");
+  const DriveField field = field_of(points, {});
+  const double radius = 0.006;  // of parted lips, as field_of() has them
+  const DrivenPatches even = driven_patches(field, face_.mesh, radius, "motion.csv"),
+                      p = driven_patches(field, face_.mesh, radius, "motion.csv", fading);
+  EXPECT_TRUE((even.share.array() == 1).all());
+  const Points& skin = face_.mesh.volume.outer.points;
+  int between = 0;
+  for (std::size_t j = 0; j < p.nodes.size(); ++j) {
+    const double share = p.share[Eigen::Index(j)];
+    const auto away = [&](const DrivenPoint& point) {
+      return (skin.row(p.nodes[j]).transpose() - point.rest).norm();
+    };
+    if (std::any_of(points.begin(), points.end(), [&](const DrivenPoint& point) {
+          return point.name != "ibug68_8" && away(point) < radius;
+        })) {
+      EXPECT_EQ(share, 1) << "the patches of other points are as before";
+      continue;
+    }
+    const double d = away(points[std::size_t(chin)]);
+    if (d < radius) {
+      EXPECT_EQ(share, 1);
+    }
+    if (d > radius + 0.017) {
+      EXPECT_LT(share, 0.05) << d;
+    }
+    EXPECT_LT(d, radius + 0.020);
+    between += share > 0.2 && share < 0.8;
+    EXPECT_LE(face_.mesh.upper_margin[std::size_t(p.nodes[j])], 0) << "the lower face alone";
+  }
+  EXPECT_GT(between, 2);
+  EXPECT_LT((reached(p) - Eigen::MatrixXd::Identity(7, 7)).cwiseAbs().maxCoeff(), 1e-3);
+}
+
 TEST_F(Drive, ATinyPatchIsOneNodeAPoint) {
   const DrivenPatches p = patches(test::seven_points(), 1e-9);
   EXPECT_EQ(p.nodes.size(), 7u);

@@ -130,6 +130,34 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
       << "the points are where they were";
 }
 
+TEST_F(DrivenByForces, TheChinsPatchEndsInTheTissuesOwnDisplacement) {
+  options_.muscles.shape_prior = false;
+  const auto peak = [&](double share) {
+    options_.muscles.few_cheek_share = options_.muscles.few_lip_share = options_.muscles.jaw_share =
+        share;
+    return made(options_).run().performance.skin_displacement_m.back().cast<double>().eval();
+  };
+  options_.muscles.own = muscles::muscle_template();
+  for (muscles::TemplateMuscle& muscle : options_.muscles.own) muscle.few_share = -1;
+  const Eigen::VectorXd mixed = (peak(0) - peak(1)).rowwise().norm();
+  const Points& rest = mesh_->volume.outer.points;
+  double inside = 0, edge = 0;
+  for (Eigen::Index v = 0; v < rest.rows(); ++v) {
+    const auto away = [&](const std::string& point) {
+      return (rest.row(v).transpose() - face_.landmarks.at(point)).norm();
+    };
+    if (std::any_of(options_.drive.points.begin(), options_.drive.points.end(),
+                    [&](const std::string& p) { return p != "ibug68_8" && away(p) < 0.013; }))
+      continue;
+    if (const double d = away("ibug68_8"); d < 0.015)
+      inside = std::max(inside, mixed[v]);
+    else if (d > 0.029 && d < 0.032 && mesh_->upper_margin[std::size_t(v)] <= 0)
+      edge = std::max(edge, mixed[v]);
+  }
+  EXPECT_GT(edge, 0);
+  EXPECT_LT(edge, 0.1 * inside);
+}
+
 TEST_F(DrivenByForces, AMuscleMayHaveAShareOfItsOwn) {
   const auto peak = [&](double of_all, double of_zygomaticus) {
     options_.muscles.own = muscles::muscle_template();

@@ -29,9 +29,9 @@ constexpr double one_place_m = 0.001;
 constexpr double correction_ridge = 1e-4;
 /// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
 constexpr double full_margin_m = 0.010;
-/// Where the share of a fading patch begins to fall, and its edge. A shorter patch leaves a step at
-/// its edge, which the skin of the chin shows (docs/muscles.md).
-constexpr double fading_from_m = 0.003, fading_reach_m = 0.028;
+/// How far beyond a patch its share falls from 1 to 0, where it fades. A patch that ends at once
+/// leaves a step at its edge, which the skin of the chin shows (docs/muscles.md).
+constexpr double fading_m = 0.020;
 
 std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t i,
                              const tissue::TissueMesh& mesh, double radius) {
@@ -53,8 +53,8 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
   return hit;
 }
 
-/// Raises the shares (by node) over the patch of point i to those of this point. A fading patch has
-/// only nodes of the lower face, and its share is C2 between its ends.
+/// Raises the shares (by node) over the patch of point i to those of this point. What a fading
+/// patch has beyond `radius` lies on the lower face alone. The share is C2 there.
 void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
                const tissue::TissueMesh& mesh, double radius, bool fades,
                const CarrierMatrix& carriers, std::map<int, double>& shares) {
@@ -63,10 +63,10 @@ void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
     double& has = shares.emplace(v, 0).first->second;
     has = std::max(has, share);
   };
-  for (const int v : patch_nodes(points, i, mesh, fades ? fading_reach_m : radius)) {
+  for (const int v : patch_nodes(points, i, mesh, fades ? radius + fading_m : radius)) {
     const double d = (skin.row(v).transpose() - points[i].rest).norm();
-    const double t = std::clamp((d - fading_from_m) / (fading_reach_m - fading_from_m), 0.0, 1.0);
-    if (!fades)
+    const double t = std::clamp((d - radius) / fading_m, 0.0, 1.0);
+    if (!fades || t == 0)
       add(v, 1);
     else if (t < 1 && mesh.upper_margin[std::size_t(v)] <= 0)
       add(v, 1 - t * t * t * (10 - 15 * t + 6 * t * t));

@@ -73,9 +73,9 @@ struct DrivenPatches {
 void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
                    const std::string& source);
 
-/// `fading`: empty, or one flag per point. The patch of a flagged point reaches 28 mm over the
-/// lower face. Its share falls smoothly from 1 at 3 mm to 0 at its edge, except in the patch of
-/// another point. Throws as check_on_skin().
+/// `fading`: empty, or one flag per point. The patch of a flagged point reaches 20 mm farther over
+/// the lower face, where its share falls smoothly from 1 to 0, except in the patch of another
+/// point. Throws as check_on_skin().
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
                              double patch_radius_m, const std::string& source,
                              const std::vector<char>& fading = {});

@@ -228,11 +228,19 @@ std::vector<int> carrying(const CarrierMatrix& carrier) {
   return {nodes.begin(), nodes.end()};
 }
 
-/// The nodes at which at least half of the field counts.
-std::vector<int> firmly_held(const DrivenSkin& patches) {
+DrivenSkin patches_of(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                      const AlignedMotion& motion, const MeasuredRegion& region,
+                      const SimulationOptions& options, bool few) {
+  DriveOptions drive = options.drive;
+  if (!few) drive.patch_radius_m = options.muscles.many_patch_m;
+  return driven_skin(mesh, landmarks, motion, region, drive, ChinPatches::fading);
+}
+
+/// The nodes at which the whole field counts.
+std::vector<int> wholly_held(const DrivenSkin& patches) {
   std::vector<int> nodes;
   for (std::size_t j = 0; j < patches.nodes.size(); ++j)
-    if (patches.share[Eigen::Index(j)] >= 0.5) nodes.push_back(patches.nodes[j]);
+    if (patches.share[Eigen::Index(j)] == 1) nodes.push_back(patches.nodes[j]);
   return nodes;
 }
 
@@ -276,10 +284,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                      const std::function<void()>& between) {
   // First, since its errors name faults of the points.
   const Driven driven(mesh, landmarks, motion, options.drive);
-  DriveOptions drive = options.drive;
-  if (!driven.few()) drive.patch_radius_m = options.muscles.many_patch_m;
-  const DrivenSkin patches =
-      driven_skin(mesh, landmarks, motion, region, drive, ChinPatches::fading);
+  const DrivenSkin patches = patches_of(mesh, landmarks, motion, region, options, driven.few());
   const JawKinematics jaw(landmarks, mesh.bones.get());
   MuscleFit fit = fit_of(model, jaw, driven, options.muscles);
 
@@ -325,7 +330,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
       forces_of(model, patches, driven, directions,
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.force = std::move(held.force);
-  load.patch_nodes = firmly_held(patches);
+  load.patch_nodes = wholly_held(patches);
   if (options.muscles.shape_prior)
     add_shapes(mesh, landmarks, motion, options, model, driven,
                {std::move(held.moved), load.course, seen}, between, load);
