@@ -54,7 +54,7 @@ class FaceSessions(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             folder = pathlib.Path(folder)
             (folder / "look.csv").write_text("time_s,jawOpen,eyeLookOutLeft,eyeLookInRight,eyeLookDownLeft\n"
-                                             "0,0,0,0,0\n0.4,0.1,1,0.5,0.2\n")
+                                             "0,0,0,0,0\n0.4,0.1,1,0.5,0.2\n0.6,0.1,1,0.5,0.2\n")
             (folder / "look.toml").write_text('scan.file = "embedded"\nmotion.arkit = "look.csv"\n')
             coarse = {**COARSE, "drive.by": "displacement"}
             gaze = hyperex.FaceSession(folder / "look.toml", coarse).performance().gaze

@@ -207,7 +207,7 @@ TEST(VariantTable, QuotesNamesAndLeavesUnknownFiguresEmpty) {
   const std::string text = read_file(file);
   EXPECT_THAT(text, HasSubstr("\"stiff, right\",5,3,5,2,"));
   EXPECT_THAT(text, HasSubstr(",0.3,,,0,"));  // floor and decision are not known
-  EXPECT_THAT(text, HasSubstr(",upper_right,corner,far\n"));
+  EXPECT_THAT(text, HasSubstr(",upper_right,corner,far,1\n"));
   const auto json = json_of(c);
   EXPECT_EQ(json["name"], "stiff, right");
   EXPECT_EQ(json["symmetry_integral_s"], c.symmetry_integral_s);
