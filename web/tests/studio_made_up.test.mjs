@@ -163,7 +163,7 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await lines.first().waitFor();
     assert.deepEqual(await lines.allInnerTexts(), [
       'Right changes by −3.0 mm (at least ± 1.0), cannot tell', 'Left changes by 0.0 mm (95 %: −0.2 to 0.2; mostly mesh), undecided',
-      'The recording’s jitter is not known, so that these intervals are not: each is wider than its known parts make it.',
+      'The recording’s jitter is not known, so each ± is only a lower bound.',
     ]);
     assert.equal(await page.locator('.certainty-ask').isVisible(), false);
     await page.locator('[data-mode=single]').dispatchEvent('click');

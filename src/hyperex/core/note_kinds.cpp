@@ -176,8 +176,8 @@ constexpr NoteKind kKinds[] = {
   note("tissue.regions_unchecked", "tissue.region",
     "Without landmarks `hyperex check` does not check where the regions of the tissue lie."),
   note("mesh.unchecked", "mesh.element_size_mm",
-    "`hyperex check` makes no mesh of more than 40,000 nodes: it does not check what a run finds on "
-    "it."),
+    "`hyperex check` makes no mesh of more than 40,000 nodes, nor of a scan of more than 300,000 "
+    "vertices: it does not check what a run finds on it."),
   note("support.none", "support.border",
     "Nothing holds the tissue but the driven points."),
   note("drive.chosen", "drive.by", "What drives the face, and why."),

@@ -142,7 +142,7 @@ MendedShapes without_wild_weights(BlendShapes shapes) {
       (real ? out.doubtful : out.wild).push_back({k, c, *off});
       if (!real) shapes.weights(Eigen::Index(k), Eigen::Index(c)) = between(track, i - 1, i, i + 1);
     }
-    settle_stays(track, c, shapes, out);
+    if (track.weight.size() >= kWindow) settle_stays(track, c, shapes, out);
   }
   const auto place = [](const WildWeight& w) { return std::pair(w.sample, w.shape); };
   std::ranges::sort(out.wild, {}, place);

@@ -99,7 +99,7 @@ std::vector<IdleRule> rules_of_inputs() {
        }},
       {{"tissue.mirror"},
        "tissue.mirror",
-       "neither [[tissue.point]] nor [[tissue.region]] is given",
+       "none of [[tissue.point]], [[tissue.region]] and tissue.preset is given",
        [](const Scene& s, DriveBy) {
          return !s.tissue.mirror || !s.tissue.points.empty() || !s.tissue.regions.empty() ||
                 !s.tissue.preset.empty();

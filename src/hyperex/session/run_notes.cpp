@@ -63,11 +63,11 @@ std::vector<Note> gaze_notes(const simulate::Performance& p) {
   if (right && left) return {};
   return {make_note(
       "eyes.closed",
-      fmt::format("the recording has a gaze, but the scan has no opening at {}, where an eye that "
-                  "turns would show; the angles are known all the same (gaze.csv)",
+      fmt::format("the recording has a gaze, but the scan is closed at {}, or has no landmarks "
+                  "there: no eye is seen to turn; gaze.csv has the angles",
                   right  ? "the left eye"
                   : left ? "the right eye"
-                         : "its eyes"))};
+                         : "both eyes"))};
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,

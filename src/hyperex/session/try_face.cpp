@@ -52,6 +52,12 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
                       "values their factors lead to",
                       "tissue.region")};
   }
+  if (const Eigen::Index vertices = inputs.scan.mesh.points.rows(); vertices > kMostTriedVertices)
+    return {make_note("mesh.unchecked",
+                      fmt::format("not checked, as meshing a scan of {} vertices takes long: "
+                                  "whether it can be meshed, and the tissue and the driven points "
+                                  "on it",
+                                  vertices))};
   if (const double nodes = expected_nodes(given, inputs); nodes > kMostTriedNodes)
     return {
         make_note("mesh.unchecked",
@@ -69,7 +75,7 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   if (has_motion) simulator.check_before_run();
   checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
   if (has_motion) try_motion(simulator, options.runs);
-  return {};
+  return face.mesh->notes;
 }
 
 }  // namespace hyperex::session

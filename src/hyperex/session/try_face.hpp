@@ -9,11 +9,14 @@ namespace hyperex::session {
 
 /// A mesh of this many nodes takes about 3 s on two idle processors: as long as a check may.
 inline constexpr double kMostTriedNodes = 40000;
+/// A scan of more vertices takes longer to prepare, whatever the mesh.
+inline constexpr Eigen::Index kMostTriedVertices = 300000;
 
 /// Does what a run does before it assembles matrices: the mesh, the tissue on it, what moves the
 /// face, and the same of each variant. Throws InputError, in a run's words, with what a run refuses
-/// by then. Where landmarks are unknown or the mesh would have more than kMostTriedNodes nodes,
-/// nothing is done and a note says so. Of a camera's recording the points are not tried: `inputs`
+/// by then. The notes are those of the mesh. Where landmarks are unknown, the scan is larger
+/// than kMostTriedVertices or the mesh would be than kMostTriedNodes, nothing is done and a note
+/// says so. Of a camera's recording the points are not tried: `inputs`
 /// of Extent::quick hold one frame of it. `inputs`: of read_inputs().
 std::vector<Note> try_face(const scene::Scene& scene, Inputs inputs);
 

@@ -148,8 +148,8 @@ std::vector<std::string> corner_sentences(const FaceBudget& budget) {
     out.push_back("these intervals lack a part that could not be simulated: " + missing);
   if (!budget.jitter_known)
     out.push_back(
-        "the recording's jitter is not known, so that these intervals are not: each is wider than "
-        "its known parts make it (output.jitter_mm states the jitter, 0 for exact points)");
+        "the recording's jitter is not known, so each +- is only a lower bound; output.jitter_mm "
+        "states the jitter, 0 for exact points");
   return out;
 }
 

@@ -175,7 +175,8 @@ function changeFigures(change: CornerChange): string {
     const figure = bandMm === null ? mm(Math.abs(byMm)) : `${own.replace(' mm', '')} ± ${limit}`;
     return `undecided: ${figure} ${byMm < 0 ? 'less' : 'more'} than base`;
   }
-  return `${changeSentence(change)}, ±${bandMm === null ? ` not known${cannotTell ? ', as the jitter is not' : ''}` : ` ${bandWords(change)}`}`;
+  const band = bandMm !== null ? `± ${bandWords(change)}` : cannotTell ? 'cannot tell: the recording’s jitter is not known' : '± not known';
+  return `${changeSentence(change)}, ${band}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */

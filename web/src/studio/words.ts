@@ -84,7 +84,7 @@ const en = {
   certaintyUndecided: 'undecided',
   certaintyCannotTell: 'cannot tell',
   certaintyMissing: (count: number) => (count === 1 ? 'One error could not be simulated: these intervals are too narrow.' : `${count} errors could not be simulated: these intervals are too narrow.`),
-  certaintyNoJitter: 'The recording’s jitter is not known, so that these intervals are not: each is wider than its known parts make it.',
+  certaintyNoJitter: 'The recording’s jitter is not known, so each ± is only a lower bound.',
   doubtCount: (count: number) => (count === 1 ? '1 doubt about these figures' : `${count} doubts about these figures`),
   /** Faces are named after their changes: in letters a to z, digits, and a few signs. */
   briefNames: {
@@ -272,7 +272,7 @@ const en = {
   noBand: 'Error bands follow when you pause; until then a change below 0.5 mm may be noise.',
   band: (band: string) => `(± ${band})`,
   undecidedChange: (change: string) => `undecided: ${change}`,
-  changeCannotTell: 'cannot tell, jitter not known',
+  changeCannotTell: '(cannot tell: the recording’s jitter is not known)',
   doubts: 'Doubts about these figures',
   bandHint: 'Error of the change from jitter (95 %) and from the mesh (one sample: its mirror image). Errors of tissue and muscles are not included.',
   most: (by: string, place: string, when: string) => `Skin differs most: by ${by}${place && `, at a place ${place}`}, ${when}`,

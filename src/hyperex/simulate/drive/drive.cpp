@@ -54,7 +54,8 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
 }
 
 /// Raises the shares (by node) over the patch of point i to those of this point. What a fading
-/// patch has beyond `radius` lies on the lower face alone. The share is C2 there.
+/// patch has beyond `radius` lies on the lower face alone, without the border, which may be held.
+/// The share is C2 there.
 void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
                const tissue::TissueMesh& mesh, double radius, bool fades,
                const CarrierMatrix& carriers, std::map<int, double>& shares) {
@@ -68,7 +69,7 @@ void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
     const double t = std::clamp((d - radius) / fading_m, 0.0, 1.0);
     if (!fades || t == 0)
       add(v, 1);
-    else if (t < 1 && mesh.upper_margin[std::size_t(v)] <= 0)
+    else if (t < 1 && mesh.upper_margin[std::size_t(v)] <= 0 && !mesh.on_border[std::size_t(v)])
       add(v, 1 - t * t * t * (10 - 15 * t + 6 * t * t));
   }
   for (CarrierMatrix::InnerIterator it(carriers, Eigen::Index(i)); it; ++it)
@@ -238,7 +239,8 @@ DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& 
   std::map<int, double> shares;  // by node
   const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
   for (std::size_t i = 0; i < points.size(); ++i)
-    add_patch(points, i, mesh, radius, !fading.empty() && fading[i], patches.carriers, shares);
+    add_patch(points, i, mesh, radius, !fading.empty() && fading[i] && radius > 0, patches.carriers,
+              shares);
   patches.share.resize(static_cast<Eigen::Index>(shares.size()));
   Points places(shares.size(), 3);
   std::vector<double> margin;

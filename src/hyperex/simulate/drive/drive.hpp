@@ -73,9 +73,9 @@ struct DrivenPatches {
 void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
                    const std::string& source);
 
-/// `fading`: empty, or one flag per point. The patch of a flagged point reaches 20 mm farther over
-/// the lower face, where its share falls smoothly from 1 to 0, except in the patch of another
-/// point. Throws as check_on_skin().
+/// `fading`: empty, or one flag per point. Around a flagged point the share falls smoothly from 1
+/// to 0 over 20 mm more of the lower face, without the border, except in the patch of another point
+/// and at a radius of 0. Throws as check_on_skin().
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,
                              double patch_radius_m, const std::string& source,
                              const std::vector<char>& fading = {});
