@@ -62,7 +62,7 @@ struct ExcursionChange {
   /// which a changed face scales. NaN without twins, and where the jitter is not known. Errors of
   /// tissue or muscles are not included.
   double band_mm = 0;
-  /// The same of what is known, without a jitter that is not; NaN without twins.
+  /// The same without the jitter's part where the jitter is not known; NaN without twins.
   double known_band_mm = 0;
   double change_mm() const { return to_mm - from_mm; }
   /// 0 if the change is not larger than what is known of its band, 1 if it is larger than all of

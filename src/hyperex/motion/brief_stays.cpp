@@ -2,10 +2,10 @@
 #include "hyperex/motion/brief_stays.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <optional>
 
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/motion/point_steps.hpp"
 #include "hyperex/motion/wild_samples.hpp"
@@ -17,9 +17,7 @@ namespace {
 bool is_of_lid(const std::string& name) {
   if (const auto k = face::ibug_number_of_place(name))
     return *k >= 36 && *k <= 47 && *k % 3 != 0;  // 36, 39, 42 and 45 are the corners
-  std::string lower = name;
-  std::ranges::transform(lower, lower.begin(),
-                         [](unsigned char c) { return char(std::tolower(c)); });
+  const std::string lower = lower_case(name);
   const auto has = [&](const char* part) { return lower.find(part) != std::string::npos; };
   return has("lid") || (has("eye") && !has("brow"));
 }

@@ -26,8 +26,8 @@ inline constexpr double kStayJump_m = 0.005;
 /// - none of the four points beside it makes a third of the step at either time.
 /// A stay of a single sample is only found where two points beside each other exchange their
 /// places: each comes to lie within a third of the step of the other's place before, and back.
-/// Of eyelids, which really move that fast, only exchanges are found. `names`: what tells lids.
-/// `at`: without the shift of the head (m).
+/// Eyelids really move that fast, so of their points only exchanges are found. `names`: one per
+/// point; eyelids are recognised by them. `at`: without the shift of the head (m).
 ///
 /// Measured: no stay is found in the recordings at hand. These are 41 markers at 60 Hz and 30 Hz, a
 /// phone's take of 4,030 samples on 68, 26, 11 and 7 points, talks and smiles. Nor with 3 mm and

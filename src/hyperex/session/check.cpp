@@ -5,7 +5,6 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
-#include "hyperex/session/idle_keys.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/run_cost.hpp"
 #include "hyperex/session/try_face.hpp"
@@ -27,7 +26,6 @@ std::vector<Note> check(const scene::Scene& scene, std::string* cost, CheckDepth
   std::vector<Note> notes = inputs.notes;
   notes.push_back(drive_choice(scene).note());
   append(notes, drive_warnings(scene));
-  append(notes, idle_keys_warnings(scene));
   if (depth == CheckDepth::face) append(notes, try_face(scene, std::move(inputs)));
   return notes;
 }

@@ -93,6 +93,7 @@ std::vector<Note> drive_warnings(const scene::Scene& scene) {
   add(warnings, by_key_warning(scene));
   add(warnings, idle_region_warning(scene));
   add(warnings, idle_support_warning(scene));
+  append(warnings, idle_keys_warnings(scene));
   return warnings;
 }
 

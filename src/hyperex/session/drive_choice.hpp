@@ -20,8 +20,8 @@ struct DriveChoice {
 /// muscles.
 DriveChoice drive_choice(const scene::Scene& scene);
 
-/// `drive.by_key`, where another key than drive.by makes displacement drive; `region.idle` and
-/// `support.idle`, which name given keys without effect (idle_keys.hpp).
+/// `drive.by_key`, where another key than drive.by makes displacement drive; `region.idle`,
+/// `support.idle` and `keys.idle`, which name given keys without effect (idle_keys.hpp).
 std::vector<Note> drive_warnings(const scene::Scene& scene);
 
 }  // namespace hyperex::session

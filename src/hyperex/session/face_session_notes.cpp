@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "hyperex/session/face_session_impl.hpp"
-#include "hyperex/session/idle_keys.hpp"
 #include "hyperex/session/run_notes.hpp"
 
 namespace hyperex::session {
@@ -48,12 +47,10 @@ void FaceSession::Impl::note_base() {
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
   std::vector<Note> out = notes_of(inputs.notes, severity);
-  if (severity == Severity::note) {
+  if (severity == Severity::note)
     out.push_back(drive.note());
-  } else {
+  else
     append(out, drive_warnings(scene));
-    append(out, idle_keys_warnings(scene));
-  }
   return out;
 }
 

@@ -20,8 +20,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
                                        Extent extent, Inputs& in);
 
 /// Applies motion.point_gain and motion.time_scale, the latter to the gaze as well, and finds the
-/// jitter. Throws InputError for
-/// gains on points that the recording lacks, and where nothing would move.
+/// jitter. Throws InputError for gains on points that the recording lacks, and where nothing would
+/// move.
 void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, Inputs& in);
 
 /// Checks a recording where the scan's landmarks are unknown, and adds notes. Throws InputError

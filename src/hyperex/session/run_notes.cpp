@@ -67,7 +67,7 @@ std::vector<Note> gaze_notes(const simulate::Performance& p) {
                   "there: no eye is seen to turn; gaze.csv has the angles",
                   right  ? "the left eye"
                   : left ? "the right eye"
-                         : "both eyes"))};
+                         : "its eyes"))};
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,

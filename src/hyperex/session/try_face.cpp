@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string>
 
 #include "hyperex/core/progress.hpp"
 #include "hyperex/session/drive_choice.hpp"
@@ -27,6 +28,14 @@ bool names_regions(const scene::Scene& scene) {
 double expected_nodes(const scene::Scene& scene, const Inputs& inputs) {
   return tissue::expected_surface_nodes(inputs.scan.mesh, inputs.landmarks, scene.mesh) *
          (scene.mesh.layers + 1);
+}
+
+/// `what`: "a mesh of about 60000 nodes".
+Note unchecked_mesh(const std::string& what) {
+  return make_note("mesh.unchecked",
+                   fmt::format("not checked, as {} takes long: whether it can be made, and the "
+                               "tissue and the driven points on it",
+                               what));
 }
 
 PreparedFace meshed_face(const scene::Scene& scene, Inputs& inputs) {
@@ -53,17 +62,9 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
                       "tissue.region")};
   }
   if (const Eigen::Index vertices = inputs.scan.mesh.points.rows(); vertices > kMostTriedVertices)
-    return {make_note("mesh.unchecked",
-                      fmt::format("not checked, as meshing a scan of {} vertices takes long: "
-                                  "whether it can be meshed, and the tissue and the driven points "
-                                  "on it",
-                                  vertices))};
+    return {unchecked_mesh(fmt::format("meshing a scan of {} vertices", vertices))};
   if (const double nodes = expected_nodes(given, inputs); nodes > kMostTriedNodes)
-    return {
-        make_note("mesh.unchecked",
-                  fmt::format("not checked, as a mesh of about {:.0f} nodes takes long: whether "
-                              "it can be made, and the tissue and the driven points on it",
-                              nodes))};
+    return {unchecked_mesh(fmt::format("a mesh of about {:.0f} nodes", nodes))};
   scene::Scene scene = given;
   scene.drive.by = drive_choice(given).by;
   inputs.driven = driven_points(scene, inputs.motion.motion);

@@ -14,10 +14,9 @@ inline constexpr Eigen::Index kMostTriedVertices = 300000;
 
 /// Does what a run does before it assembles matrices: the mesh, the tissue on it, what moves the
 /// face, and the same of each variant. Throws InputError, in a run's words, with what a run refuses
-/// by then. The notes are those of the mesh. Where landmarks are unknown, the scan is larger
-/// than kMostTriedVertices or the mesh would be than kMostTriedNodes, nothing is done and a note
-/// says so. Of a camera's recording the points are not tried: `inputs`
-/// of Extent::quick hold one frame of it. `inputs`: of read_inputs().
+/// by then. Returns the mesh's notes. Where landmarks are unknown, or the scan or the mesh would be
+/// larger than the bounds above, nothing is done and a note says so. Of a camera's recording the
+/// points are not tried, as Extent::quick reads one frame of it. `inputs`: of read_inputs().
 std::vector<Note> try_face(const scene::Scene& scene, Inputs inputs);
 
 }  // namespace hyperex::session

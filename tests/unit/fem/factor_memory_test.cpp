@@ -30,7 +30,7 @@ TEST(FactorMemory, RefusesAFactorThatDoesNotFitWithTheFigures) {
   EXPECT_EQ(refusal(large, 9 * kGib),
             "test: the factor of the matrix takes 14 GB of memory and 9.66 GB are available; a "
             "coarser mesh takes less");
-  // Where next to nothing is left, that is said, not "0.0 GB".
+  // Less than 1 MB is stated in words; rounded, it would read "0 MB".
   EXPECT_THAT(refusal(large, 4e7), testing::HasSubstr(" and 40 MB are available"));
   // The limit itself.
   const double needed = factor_bytes(small) / kFactorShare;

@@ -24,8 +24,7 @@ void check_factor_fits(const FactorForecast& forecast, double available_bytes,
   if (const double bytes = factor_bytes(forecast); bytes > kFactorShare * available_bytes)
     throw NumericalError(
         fmt::format("{}: the factor of the matrix takes {} of memory and {} are available; a "
-                    "coarser mesh takes "
-                    "less",
+                    "coarser mesh takes less",
                     purpose, size_text(bytes), size_text(available_bytes)));
 }
 

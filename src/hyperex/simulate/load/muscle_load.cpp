@@ -7,6 +7,7 @@
 #include <iterator>
 #include <numbers>
 #include <set>
+#include <utility>
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -131,10 +132,11 @@ HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const D
   own << model.force(), model.wide_force(), model.jaw_force();
   moved << model.response(), model.wide_response(), model.jaw_response();
   Eigen::MatrixXd displaced(3 * Eigen::Index(patches.nodes.size()), own.cols() + left_over.cols());
-  displaced << faded(patches, field_less_tissue(patches, driven, moved, points) *
-                                  (1 - tissue_share.array()).matrix().asDiagonal()),
-      faded(patches, field_in_patches(patches, driven, left_over, points));
-  HeldShape out = holding_forces(model, patches.nodes, displaced, between);
+  displaced << field_less_tissue(patches, driven, moved, points) *
+                   (1 - tissue_share.array()).matrix().asDiagonal(),
+      field_in_patches(patches, driven, left_over, points);
+  HeldShape out =
+      holding_forces(model, patches.nodes, faded(patches, std::move(displaced)), between);
   out.force.leftCols(own.cols()) += own;
   out.moved.leftCols(own.cols()) += moved.topRows(out.moved.rows());
   return out;
