@@ -58,6 +58,29 @@ TEST(NearJaw, IsTheLowerFaceOnly) {
   for (int k : {0, 16, 19, 24, 27, 30, 36, 45}) EXPECT_FALSE(at(k)) << k;
 }
 
+TEST(OverFrontalis, IsTheForeheadAboveTheBrows) {
+  const test::SmallFace face = test::small_face();
+  const std::vector<char> over = over_frontalis(face.mesh, face.landmarks);
+  const Points& skin = face.mesh.skin.points;
+  const auto above = [&](int k, double height_m) {
+    const Vec3 up(0, height_m, 0);
+    return over[std::size_t(nearest_vertex(skin, face.landmarks.at(ibug(k)) + up))];
+  };
+  for (const int k : {18, 21, 22, 25}) EXPECT_TRUE(above(k, 0.015)) << k;
+  for (const int k : {0, 8, 16, 30, 36, 45, 51}) EXPECT_FALSE(above(k, 0)) << k;
+  for (Eigen::Index v = 0; v < skin.rows(); ++v) {
+    double nearest = 1, height = 0;
+    for (int k = 17; k <= 26; ++k)
+      if (const Vec3 from = skin.row(v).transpose() - face.landmarks.at(ibug(k));
+          from.norm() < nearest) {
+        nearest = from.norm();
+        height = from.y();
+      }
+    if (nearest > 0.036 || height < -0.002) EXPECT_FALSE(over[std::size_t(v)]) << v;
+    if (nearest < 0.034 && height > 0.002) EXPECT_TRUE(over[std::size_t(v)]) << v;
+  }
+}
+
 TEST(EdgeOfJaw, IsTheLineOfTheChin) {
   const test::SmallFace face = test::small_face();
   const std::vector<EdgeOfJaw> edge = edge_of_jaw(face.mesh, face.landmarks);

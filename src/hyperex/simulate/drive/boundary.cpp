@@ -172,8 +172,9 @@ Boundary Boundary::released() const {
 void Boundary::hold_border(const io::Landmarks& landmarks, const SupportOptions& support) {
   if (!support.border_held) return;
   const std::vector<char> moves_with_jaw = near_jaw(mesh_, landmarks);
+  const std::vector<char> slides = over_frontalis(mesh_, landmarks);
   for (int v = 0; v < mesh_.volume.surface_nodes(); ++v)
-    if (mesh_.on_border[v] && !moves_with_jaw[v])
+    if (mesh_.on_border[v] && !moves_with_jaw[v] && !slides[v])
       for (int level = 0; level <= mesh_.volume.layers; ++level)
         fixed_.push_back({static_cast<int>(level * mesh_.volume.surface_nodes()) + v, Bone::none});
 }

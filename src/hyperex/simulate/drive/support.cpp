@@ -15,6 +15,8 @@ using face::ibug;
 constexpr double skull_off_lips_m = 0.008, jaw_off_lips_m = 0.006;
 constexpr double jaw_reach_m = 0.015, jaw_below_edge_m = 0.010, jaw_below_lip_m = 0.016;
 constexpr double border_free_m = 0.035;
+constexpr double frontalis_reach_m = 0.035;
+constexpr int brow_first = 17, brow_last = 26;  // iBUG points
 constexpr double attached_m = 0.0015, backed_m = 0.005;
 /// The front edge of the ramus lies this far in front of the condyles; the estimated ones lie in
 /// front of the true ones.
@@ -171,6 +173,22 @@ std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& 
   for (Eigen::Index v = 0; v < skin.rows(); ++v)
     near[v] = map.distance_to_jaw(map.frame().local(skin.row(v)), 4, 12) < border_free_m;
   return near;
+}
+
+std::vector<char> over_frontalis(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  std::vector<Vec3> brows;
+  for (int k = brow_first; k <= brow_last; ++k)
+    brows.push_back(frame.local(landmarks.at(face::ibug(k))));
+  const Points& skin = mesh.volume.outer.points;
+  std::vector<char> over(skin.rows());
+  for (Eigen::Index v = 0; v < skin.rows(); ++v) {
+    const Vec3 p = frame.local(skin.row(v));
+    const Vec3& brow = *std::ranges::min_element(
+        brows, {}, [&](const Vec3& at) { return (p - at).squaredNorm(); });
+    over[v] = p.y() > brow.y() && (p - brow).norm() < frontalis_reach_m;
+  }
+  return over;
 }
 
 }  // namespace hyperex::simulate

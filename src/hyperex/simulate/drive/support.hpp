@@ -42,6 +42,10 @@ std::vector<double> distances_to_lips(const tissue::TissueMesh& mesh,
 /// that ends just under the chin moves with the jaw and cannot be held.
 std::vector<char> near_jaw(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
+/// One flag per outer node: above the brows (ibug68_17 to 26) and within 35 mm of them, where the
+/// frontalis moves the skin over the skull. The border of a scan that ends at the hairline slides.
+std::vector<char> over_frontalis(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
+
 /// The place of an inner node relative to the edge of the mandible (ibug68_5 to 11).
 struct EdgeOfJaw {
   bool below = false;  ///< below the edge or beyond its two ends: the floor of the mouth
