@@ -124,9 +124,9 @@ TEST(GazeTrack, IsLinearBetweenSamplesAndHeldAtItsEnds) {
 
 TEST(GazeTrack, IsLedInFromLookingAhead) {
   const GazeTrack track{{1, 2, 3},
-                        {{.left = {.left_rad = -0.4}},
+                        {{.right = {}, .left = {.left_rad = -0.4}},
                          {.right = {.up_rad = 0.1}, .left = {.left_rad = -0.2}},
-                         {.left = {.left_rad = 0.6}}}};
+                         {.right = {}, .left = {.left_rad = 0.6}}}};
   const GazeTrack led = led_in(track, 2.5, 0.5);
   EXPECT_EQ(led.time_s.front(), 2);
   EXPECT_TRUE(std::ranges::is_sorted(led.time_s, std::less_equal<>()));
