@@ -16,6 +16,7 @@
 #include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/same_face.hpp"
 #include "hyperex/session/teeth.hpp"
+#include "hyperex/session/try_face.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -38,6 +39,7 @@ FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
   fields = std::make_unique<TissueFields>(inputs, *face.mesh);
   Stopwatch watch;
   take(std::move(next));
+  check_faces_before_run(*simulator, runs);
   seconds.tissue = watch.lap();
   begin_stage("assembling and factoring");
   Progress progress("assembling and factoring", 0);
