@@ -240,6 +240,9 @@ const metrics::PeakTissue& FaceSession::tissue_at_peak() const {
 const metrics::SkinUncertainty* FaceSession::skin_uncertainty() const {
   return impl_->skin_uncertainty();
 }
+const report::FaceBacking* FaceSession::backing() const {
+  return impl_->backing ? &*impl_->backing : nullptr;
+}
 const std::vector<VariantRun>& FaceSession::variants() const {
   return impl_->runs;
 }

@@ -56,10 +56,10 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
   return notes;
 }
 
-std::vector<Note> gaze_notes(const simulate::Performance& p) {
-  if (p.gaze.empty()) return {};
+std::vector<Note> gaze_notes(const simulate::Performance& p, const report::FaceBacking* backing) {
+  if (!backing) return {};
   const auto [right, left] =
-      report::open_eyes(report::face_backing(p), p.skin_rest.points, report::landmarks_at_rest(p));
+      report::open_eyes(*backing, p.skin_rest.points, report::landmarks_at_rest(p));
   if (right && left) return {};
   return {make_note(
       "eyes.closed",

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hyperex/motion/rest.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/note_matchers.hpp"
@@ -143,6 +144,8 @@ TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
     EXPECT_NEAR(degrees[2], 0.8 * kHalf_deg, 1e-6);
   }
   EXPECT_THAT(face.notes(), testing::Not(testing::Contains(test::has_id("eyes.closed"))));
+  ASSERT_TRUE(face.backing()) << "it was made for the notes";
+  EXPECT_EQ(face.backing()->eyeballs.size(), 2u);
 }
 
 TEST(Expressions, WithoutAGazeTurnNoEyes) {
