@@ -95,10 +95,11 @@ void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
     in.gaze = expression::led_in(*in.gaze, m.time_s.front() + rested.lead_s, rested.lead_s);
   in.notes.push_back(make_note(
       "recording.lead_in",
-      fmt::format("the recording does not start at rest{}: the run leads the face from rest into "
-                  "it and so begins {:g} s before it",
-                  start_s > 0 ? fmt::format(" at time.start_s = {:g}", start_s) : "",
-                  rested.lead_s * scene.motion.time_scale)));
+      fmt::format(
+          "the face is not at rest at {}: the run leads it from rest into the recording, "
+          "and so begins {:g} s earlier",
+          start_s > 0 ? fmt::format("time.start_s = {:g}", start_s) : "the start of the recording",
+          rested.lead_s * scene.motion.time_scale)));
 }
 
 /// A wrong name is reported by its key.

@@ -72,12 +72,13 @@ TEST(GazeNotes, SayWhichEyesOfTheScanAreClosed) {
     return (middle - face.landmarks.at("ibug68_45")).norm() < 0.03;  // the left eye's outer corner
   });
   EXPECT_THAT(gaze_notes(p, &other),
-              ElementsAre(AllOf(is_note("eyes.closed"), says("at the left eye"))))
+              ElementsAre(AllOf(is_note("eyes.closed"), says("at the left eye"),
+                                says("this eye is not seen"))))
       << "the openings are those handed over";
   p.landmarks.names.clear();
   p.landmarks.positions.clear();
   EXPECT_THAT(gaze_notes(p, &backing),
-              ElementsAre(AllOf(is_note("eyes.closed"), says("at its eyes"), says("gaze.csv"))));
+              ElementsAre(AllOf(is_note("eyes.closed"), says("at either eye"), says("gaze.csv"))));
 }
 
 TEST(RunWarnings, TheReportsOwnNotesComeFirst) {
