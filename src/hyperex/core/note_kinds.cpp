@@ -212,7 +212,8 @@ constexpr NoteKind kKinds[] = {
     "tissue.strain = \"finite\" is for such strains."),
   note("contact.none", "contact", "Contact is switched on, and nothing touches in any frame."),
   note("eyes.closed", "scan.file",
-    "The recording has a gaze, and the scan has no opening at an eye: none is seen to turn there."),
+    "The recording has a gaze, and the scan has no opening at an eye: this eye is not seen to "
+    "turn."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
 };

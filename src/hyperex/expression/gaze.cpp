@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/motion/rest.hpp"
 
 namespace hyperex::expression {
 namespace {
@@ -82,6 +83,24 @@ EyesGaze GazeTrack::at(double t_s) const {
   const double share = (t_s - time_s[i - 1]) / (time_s[i] - time_s[i - 1]);
   return {between(gaze[i - 1].right, gaze[i].right, share),
           between(gaze[i - 1].left, gaze[i].left, share)};
+}
+
+GazeTrack led_in(const GazeTrack& track, double start_s, double lead_s) {
+  constexpr int steps = 30;
+  const EyesGaze ahead, first = track.at(start_s);
+  GazeTrack out;
+  for (int k = 0; k <= steps; ++k) {
+    const double u = double(k) / steps, share = motion::lead_course(u);
+    out.time_s.push_back(start_s - lead_s * (1 - u));
+    out.gaze.push_back(
+        {between(ahead.right, first.right, share), between(ahead.left, first.left, share)});
+  }
+  for (std::size_t k = 0; k < track.time_s.size(); ++k)
+    if (track.time_s[k] > start_s) {
+      out.time_s.push_back(track.time_s[k]);
+      out.gaze.push_back(track.gaze[k]);
+    }
+  return out;
 }
 
 std::optional<GazeTrack> gaze_of(const BlendShapes& shapes) {

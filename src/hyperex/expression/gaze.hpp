@@ -55,6 +55,11 @@ struct GazeTrack {
   EyesGaze at(double t_s) const;
 };
 
+/// The track from `start_s` on, with a transition of `lead_s` (above 0) before it: at its beginning
+/// the eyes look ahead, as those of a face at rest do, and they turn along motion::lead_course() to
+/// where they look at `start_s`. Earlier samples are left out.
+GazeTrack led_in(const GazeTrack& track, double start_s, double lead_s);
+
 /// The gaze in a recording: by the angles of the eyes where it has them, otherwise by the weights
 /// of the shapes eyeLook... Samples without a value are left out. Nothing where all of these are
 /// 0 or missing: the recorder did not measure the gaze.

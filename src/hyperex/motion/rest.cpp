@@ -62,9 +62,8 @@ void lead_in(Motion& motion, const Points& rest) {
   std::vector<Points> course;
   for (int k = 0; k < steps; ++k) {
     const double u = double(k) / steps;
-    const double share = u * u * u * (10 + u * (-15 + 6 * u));
     times.push_back(motion.time_s.front() - rest_lead_s * (1 - u));
-    course.push_back(rest + share * (first - rest));
+    course.push_back(rest + lead_course(u) * (first - rest));
   }
   motion.time_s.insert(motion.time_s.begin(), times.begin(), times.end());
   motion.positions.insert(motion.positions.begin(), course.begin(), course.end());
@@ -121,6 +120,10 @@ Points laid_on(const Points& shape, const Points& onto) {
 }
 
 }  // namespace
+
+double lead_course(double u) {
+  return u * u * u * (10 + u * (-15 + 6 * u));
+}
 
 RestedMotion with_rest(const Motion& motion, const RestStretch& stretch, double start_s) {
   const double length_s = motion.time_s.back() - motion.time_s.front();

@@ -26,6 +26,8 @@ struct RestedMotion {
   double lead_s = 0;  ///< how much earlier the motion now starts; 0 where nothing was put before it
 };
 inline constexpr double rest_lead_s = 0.5;
+/// How far that course has gone, 0 to 1, at the share `u` (0 to 1) of its length.
+double lead_course(double u);
 /// `start_s`: the samples before that time, counted from the first sample, are left out. Throws
 /// InputError where the stretch lies outside the motion, a point is never measured in it, or fewer
 /// than two samples are left.

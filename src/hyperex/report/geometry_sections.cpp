@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include "hyperex/render/sky_share.hpp"
 #include "hyperex/report/border_fade.hpp"
@@ -210,7 +211,9 @@ json opening_section(const Opening& opening, BinaryBlock& block) {
 }  // namespace
 
 Vec3 add_backing(const ReportInput& input, BinaryBlock& block, json& manifest) {
-  const FaceBacking backing = face_backing(input.performance, input.teeth);
+  std::optional<FaceBacking> made;
+  if (!input.backing) made = face_backing(input.performance, input.teeth);
+  const FaceBacking& backing = made ? *made : *input.backing;
   manifest["openings"] = json::array();
   for (const Opening& opening : backing.openings)
     manifest["openings"].push_back(opening_section(opening, block));

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -123,7 +124,9 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   const SkinView view = skin_view(performance, scan);
   const tinygltf::Primitive skin = skin_primitive(model, arrays, view, performance, scan);
   // Added before the morph targets, which may take the rest of options.max_bytes.
-  const FaceBacking backing = face_backing(performance, options.teeth);
+  std::optional<FaceBacking> made;
+  if (!options.backing) made = face_backing(performance, options.teeth);
+  const FaceBacking& backing = made ? *made : *options.backing;
   FaceNodes nodes;
   add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, !performance.gaze.empty(),
            nodes);

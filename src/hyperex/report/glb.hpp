@@ -8,10 +8,14 @@
 
 namespace hyperex::report {
 
+struct FaceBacking;
+
 struct GlbOptions {
   double tolerance_m = 1e-4;              ///< of any vertex in any frame
   double max_bytes = 20e6;                ///< of the file
   const anatomy::Teeth* teeth = nullptr;  ///< at rest, scan frame; null: none
+  /// face_backing() of performance and teeth where the caller has it; null: it is made.
+  const FaceBacking* backing = nullptr;
 };
 
 /// Report on the written file.

@@ -16,6 +16,8 @@
 
 namespace hyperex::report {
 
+struct FaceBacking;
+
 /// A quantity on the skin, such as a parameter of the tissue.
 struct SkinMap {
   std::string key = {};   ///< as the scene writes it: "young_kpa"
@@ -65,8 +67,10 @@ struct ReportInput {
   std::vector<ReportVariant> variants = {};
   /// The counterpart of each vertex on the other side; null: asymmetry is not shown.
   const metrics::RestAsymmetry* mirror = nullptr;
-  std::vector<ReportMuscle> muscles = {};            ///< where performance.muscles drive
-  const anatomy::Teeth* teeth = nullptr;             ///< at rest, scan frame; null: none
+  std::vector<ReportMuscle> muscles = {};  ///< where performance.muscles drive
+  const anatomy::Teeth* teeth = nullptr;   ///< at rest, scan frame; null: none
+  /// face_backing() of performance and teeth where the caller has it; null: it is made.
+  const FaceBacking* backing = nullptr;
   face::SkinTone skin_tone = face::SkinTone::light;  ///< where the scan has no colours
 };
 

@@ -18,7 +18,7 @@ namespace hyperex::run {
 report::FaceBacking backing_in_frame(const TriMesh& skin_rest, const io::Landmarks& landmarks,
                                      const anatomy::Teeth* teeth, const face::FaceFrame& frame);
 
-/// How the eyes turn in a frame; nothing where the recording does not have it.
+/// How the eyes turn in a frame; nothing where the recording has no gaze.
 std::optional<expression::EyesGaze> gaze_in(const simulate::Performance& performance,
                                             std::size_t frame);
 

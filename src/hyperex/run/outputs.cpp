@@ -249,9 +249,9 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
        [&] { write_contact_sheet(r, directory / "contact_sheet.png"); },
        [&] {
          if (r.scene.output.glb)
-           glb = report::write_glb(
-               directory / "performance.glb", p, r.inputs.scan,
-               {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb, r.teeth});
+           glb = report::write_glb(directory / "performance.glb", p, r.inputs.scan,
+                                   {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb,
+                                    r.teeth, r.backing});
        },
        [&] {
          write_peak(r, directory);

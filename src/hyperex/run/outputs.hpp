@@ -25,9 +25,10 @@ struct Results {
   const simulate::SimulationResult& simulation;
   metrics::SymmetryMeasures symmetry;
   std::vector<Note> notes;
-  report::DisplacementModes modes;              ///< of the skin; empty if no page is written
-  const tissue::TissueField* tissue = nullptr;  ///< null: the tissue is uniform
-  const anatomy::Teeth* teeth = nullptr;        ///< null: none
+  report::DisplacementModes modes;               ///< of the skin; empty if no page is written
+  const tissue::TissueField* tissue = nullptr;   ///< null: the tissue is uniform
+  const anatomy::Teeth* teeth = nullptr;         ///< null: none
+  const report::FaceBacking* backing = nullptr;  ///< of simulation and teeth; null: not made yet
   const metrics::SkinUncertainty* uncertainty = nullptr;  ///< null: not known, as for variants
 };
 

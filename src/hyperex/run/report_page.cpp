@@ -130,6 +130,7 @@ ReplayPage::ReplayPage(const Results& r, const std::vector<VariantRun>& variants
              .mirror = &*r.symmetry.map,
              .muscles = muscles_of(r),
              .teeth = r.teeth,
+             .backing = r.backing,
              .skin_tone = r.scene.output.skin_tone} {
   const simulate::Performance& p = r.simulation.performance;
   auto tissue = tissue_maps(r, variants);

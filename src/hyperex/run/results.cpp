@@ -13,6 +13,7 @@ Results results_of(const session::FaceSession& session) {
                   {},
                   session.field()};
   results.teeth = session.teeth().get();
+  results.backing = session.backing();
   results.uncertainty = session.skin_uncertainty();
   return results;
 }

@@ -16,6 +16,7 @@
 #include "hyperex/session/obstacles.hpp"
 #include "hyperex/session/same_face.hpp"
 #include "hyperex/session/teeth.hpp"
+#include "hyperex/session/try_face.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -38,6 +39,7 @@ FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
   fields = std::make_unique<TissueFields>(inputs, *face.mesh);
   Stopwatch watch;
   take(std::move(next));
+  check_faces_before_run(*simulator, runs);
   seconds.tissue = watch.lap();
   begin_stage("assembling and factoring");
   Progress progress("assembling and factoring", 0);
@@ -237,6 +239,9 @@ const metrics::PeakTissue& FaceSession::tissue_at_peak() const {
 }
 const metrics::SkinUncertainty* FaceSession::skin_uncertainty() const {
   return impl_->skin_uncertainty();
+}
+const report::FaceBacking* FaceSession::backing() const {
+  return impl_->backing ? &*impl_->backing : nullptr;
 }
 const std::vector<VariantRun>& FaceSession::variants() const {
   return impl_->runs;

@@ -27,6 +27,9 @@ namespace hyperex::metrics {
 struct PeakTissue;
 struct SkinUncertainty;
 }  // namespace hyperex::metrics
+namespace hyperex::report {
+struct FaceBacking;
+}
 
 namespace hyperex::session {
 
@@ -177,6 +180,9 @@ class FaceSession {
   /// How uncertain the skin of base is between the driven points; null where shapes of real faces
   /// do not take part (drive.by, muscles.shape_prior).
   const metrics::SkinUncertainty* skin_uncertainty() const;
+  /// What lies behind the holes of base's skin, with teeth(): report::face_backing(). Null where
+  /// base was not run, or the recording has no gaze: only the notes on a gaze need it here.
+  const report::FaceBacking* backing() const;
   const std::vector<VariantRun>& variants() const;
   FaceResult result(std::size_t face) const;
 

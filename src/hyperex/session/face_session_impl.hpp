@@ -3,6 +3,7 @@
 // What a FaceSession holds, stage by stage.
 #include "hyperex/metrics/peak_tissue.hpp"
 #include "hyperex/metrics/skin_uncertainty.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -47,6 +48,7 @@ struct FaceSession::Impl {
   metrics::SymmetryMeasures symmetry;
   mutable std::optional<metrics::PeakTissue> tissue_at_peak;    // none: not computed yet
   mutable std::optional<metrics::SkinUncertainty> uncertainty;  // the same
+  std::optional<report::FaceBacking> backing;                   // none: there is no gaze
   std::optional<MirroredTwin> twin;                             // of base as it is; none: not run
   std::optional<simulate::Simulator> next_variant;              // of prepare_variant()
 

@@ -83,6 +83,9 @@ void FaceSession::Impl::run_base(const simulate::RunCallbacks& callbacks) {
     simulation = run_with_bar(*simulator, callbacks);
   }
   add_gaze(simulation.performance);
+  backing.reset();
+  if (!simulation.performance.gaze.empty())
+    backing = report::face_backing(simulation.performance, teeth.get());
   Progress measuring("measuring", 0);
   symmetry = symmetry_measures(scene, inputs, face.at_rest, simulation.performance,
                                twin ? *twin : no_twin());

@@ -37,7 +37,7 @@ struct Inputs {
   /// The part of lasts_s before time.start_s, in which the run leads the face from rest into the
   /// recording; in the recording's own seconds.
   double lead_s = 0;
-  /// How the eyes turn, in the run's seconds; nothing where the recording does not have it.
+  /// How the eyes turn, in the run's seconds; nothing where the recording has no gaze.
   std::optional<expression::GazeTrack> gaze;
   std::vector<std::string> driven;  ///< names of the driven points
   /// What was guessed, placed or filled, and probable mistakes with their remedies, in the order in

@@ -80,7 +80,8 @@ motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
   return m;
 }
 
-/// Rest is where the scene says; `m` has its head pose taken out.
+/// Rest is where the scene says; `m` has its head pose taken out. Where the face is led from rest
+/// into the recording, so are the eyes.
 void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   const auto stretch = rest_stretch(scene.motion);
   const double start_s = scene.motion.start_s;
@@ -89,13 +90,16 @@ void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
   m = std::move(rested.motion);
   in.lead_s = rested.lead_s;
-  if (rested.lead_s > 0)
-    in.notes.push_back(make_note(
-        "recording.lead_in",
-        fmt::format("the recording does not start at rest{}: the run leads the face from rest into "
-                    "it and so begins {:g} s before it",
-                    start_s > 0 ? fmt::format(" at time.start_s = {:g}", start_s) : "",
-                    rested.lead_s * scene.motion.time_scale)));
+  if (rested.lead_s == 0) return;
+  if (in.gaze)
+    in.gaze = expression::led_in(*in.gaze, m.time_s.front() + rested.lead_s, rested.lead_s);
+  in.notes.push_back(make_note(
+      "recording.lead_in",
+      fmt::format(
+          "the face is not at rest at {}: the run leads it from rest into the recording, "
+          "and so begins {:g} s earlier",
+          start_s > 0 ? fmt::format("time.start_s = {:g}", start_s) : "the start of the recording",
+          rested.lead_s * scene.motion.time_scale)));
 }
 
 /// A wrong name is reported by its key.

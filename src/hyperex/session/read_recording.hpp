@@ -15,7 +15,8 @@ void check_rig(const scene::Scene& scene);
 /// InputError.
 motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in);
 
-/// Fills gaps, removes the head pose, and takes rest from motion.rest_s. Throws InputError.
+/// Fills gaps, removes the head pose, and takes rest from motion.rest_s. Where the face
+/// is led from rest into the recording, the gaze is, too. Throws InputError.
 motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::Motion& m,
                                        Extent extent, Inputs& in);
 

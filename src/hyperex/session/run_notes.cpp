@@ -56,18 +56,20 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
   return notes;
 }
 
-std::vector<Note> gaze_notes(const simulate::Performance& p) {
-  if (p.gaze.empty()) return {};
+std::vector<Note> gaze_notes(const simulate::Performance& p, const report::FaceBacking* backing) {
+  if (!backing) return {};
   const auto [right, left] =
-      report::open_eyes(report::face_backing(p), p.skin_rest.points, report::landmarks_at_rest(p));
+      report::open_eyes(*backing, p.skin_rest.points, report::landmarks_at_rest(p));
   if (right && left) return {};
+  const bool one = right || left;
   return {make_note(
       "eyes.closed",
-      fmt::format("the recording has a gaze, but the scan is closed at {}, or has no landmarks "
-                  "there: no eye is seen to turn; gaze.csv has the angles",
-                  right  ? "the left eye"
-                  : left ? "the right eye"
-                         : "its eyes"))};
+      fmt::format("the recording has a gaze, but the scan has no opening at {}, or no landmarks "
+                  "there, so that {} is not seen to turn; gaze.csv has the angles",
+                  !one    ? "either eye"
+                  : right ? "the left eye"
+                          : "the right eye",
+                  one ? "this eye" : "neither"))};
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,

@@ -9,6 +9,10 @@
 #include "hyperex/session/variants.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 
+namespace hyperex::report {
+struct FaceBacking;
+}
+
 namespace hyperex::session {
 
 /// Notes, no warnings: few inverted tetrahedra (`tissue.few_inverted`: at most 0.1 %), contact that
@@ -17,9 +21,11 @@ std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport
                                                 const simulate::Performance& performance,
                                                 const simulate::ContactOptions& contact);
 
-/// `eyes.closed` (a note): the recording has a gaze, and an eye of the scan has no opening through
-/// which it would show.
-std::vector<Note> gaze_notes(const simulate::Performance& performance);
+/// `eyes.closed` (a note): the recording has a gaze, and the scan has no opening at an eye, so that
+/// the eyeball there is hidden. `backing`: report::face_backing() of `performance`; null: the
+/// recording has no gaze.
+std::vector<Note> gaze_notes(const simulate::Performance& performance,
+                             const report::FaceBacking* backing);
 
 /// Warnings: the report's own notes (SimulationReport::notes), `lips.pass_through` (by more than
 /// 0.5 mm), `tissue.inverted` (more than 0.1 % of the tetrahedra).

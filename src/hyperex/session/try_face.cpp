@@ -43,15 +43,16 @@ PreparedFace meshed_face(const scene::Scene& scene, Inputs& inputs) {
   return prepare_face(scene, inputs, [] {});
 }
 
-void try_motion(const simulate::Simulator& base, const std::vector<VariantRun>& runs) {
+}  // namespace
+
+void check_faces_before_run(simulate::Simulator& base, const std::vector<VariantRun>& runs) {
+  base.check_before_run();
   for (const VariantRun& run : runs) {
     simulate::Simulator own = base;
     own.set_options(run.options);
     own.check_before_run();
   }
 }
-
-}  // namespace
 
 std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   if (inputs.landmarks.empty()) {
@@ -72,10 +73,8 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   TissueFields fields(inputs, *face.mesh);
   const FaceOptions options = face_options(scene, inputs, fields);
   simulate::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, options.base);
-  const bool has_motion = scene.motion.recording.empty();
-  if (has_motion) simulator.check_before_run();
+  if (scene.motion.recording.empty()) check_faces_before_run(simulator, options.runs);
   checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
-  if (has_motion) try_motion(simulator, options.runs);
   return face.mesh->notes;
 }
 

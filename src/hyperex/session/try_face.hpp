@@ -4,6 +4,8 @@
 
 #include "hyperex/core/note.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/variants.hpp"
+#include "hyperex/simulate/run/simulator.hpp"
 
 namespace hyperex::session {
 
@@ -18,5 +20,10 @@ inline constexpr Eigen::Index kMostTriedVertices = 300000;
 /// larger than the bounds above, nothing is done and a note says so. Of a camera's recording the
 /// points are not tried, as Extent::quick reads one frame of it. `inputs`: of read_inputs().
 std::vector<Note> try_face(const scene::Scene& scene, Inputs inputs);
+
+/// Throws InputError where the run of base or of a variant would because of points, muscles, the
+/// jaw or the number of steps, and assembles nothing: milliseconds for each face. A session asks
+/// this before it assembles matrices, and a check asks the same.
+void check_faces_before_run(simulate::Simulator& base, const std::vector<VariantRun>& runs);
 
 }  // namespace hyperex::session

@@ -265,7 +265,8 @@ struct DriveOptions {
              "Radius of the patch of skin that a driven point moves where the lips part; half as "
              "much again where they stay closed. 0 takes the nearest node alone. Muscles use it "
              "where at most 20 of the driven points lie below the nose; with more of them it is "
-             "15 mm, whatever is given here.",
+             "15 mm, whatever is given here. Where muscles drive, patches around points of the "
+             "chin fade out over a further 20 mm, unless the radius is 0.",
              {.unit = kMillimetres, .bounds = {0, 0.03}});
     v.option(HX_MEMBER(still_points),
              "Landmarks of the skin that are fixed; none of them may be driven.");

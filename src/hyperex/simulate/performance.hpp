@@ -45,8 +45,8 @@ struct Performance {
   int peak_frame = 0;  ///< frame with the greatest mean displacement of the driven points
   /// The jaw's pose in each frame: its point x at rest is at jaw_now_from_rest[f] * x.
   std::vector<Eigen::Isometry3d> jaw_now_from_rest;
-  /// How the eyes turn in each frame; empty where the recording does not have it. A simulator does
-  /// not know it: the session adds it. No figure depends on it.
+  /// How the eyes turn in each frame; empty where the recording has no gaze. The session adds it,
+  /// as a simulator does not know it. No figure depends on it.
   std::vector<expression::EyesGaze> gaze;
 
   /// The simulated tissue; empty where everything was measured.

@@ -3,7 +3,9 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <limits>
 #include <numbers>
 
@@ -118,6 +120,22 @@ TEST(GazeTrack, IsLinearBetweenSamplesAndHeldAtItsEnds) {
   EXPECT_NEAR(track.at(1.25).right.up_rad, 0.025, 1e-12);
   EXPECT_EQ(track.at(2).left.left_rad, -0.2);
   EXPECT_EQ(track.at(9).left.left_rad, -0.2);
+}
+
+TEST(GazeTrack, IsLedInFromLookingAhead) {
+  const GazeTrack track{{1, 2, 3},
+                        {{.right = {}, .left = {.left_rad = -0.4}},
+                         {.right = {.up_rad = 0.1}, .left = {.left_rad = -0.2}},
+                         {.right = {}, .left = {.left_rad = 0.6}}}};
+  const GazeTrack led = led_in(track, 2.5, 0.5);
+  EXPECT_EQ(led.time_s.front(), 2);
+  EXPECT_TRUE(std::ranges::is_sorted(led.time_s, std::less_equal<>()));
+  EXPECT_EQ(led.at(2).left.left_rad, 0);
+  EXPECT_EQ(led.at(2).right.up_rad, 0);
+  EXPECT_NEAR(led.at(2.1).left.left_rad, 0.05792 * 0.2, 1e-9) << "10 u^3 - 15 u^4 + 6 u^5 at 0.2";
+  EXPECT_NEAR(led.at(2.25).right.up_rad, 0.5 * 0.05, 1e-9);
+  for (const double t_s : {2.5, 2.75, 3.0, 9.0})
+    EXPECT_NEAR(led.at(t_s).left.left_rad, track.at(t_s).left.left_rad, 1e-12) << t_s;
 }
 
 TEST(GazeTrack, LeavesOutSamplesWithoutAValue) {

@@ -238,6 +238,9 @@ Eigen::Matrix<float, Eigen::Dynamic, 4, Eigen::RowMajor> turns_of_node(const tin
 TEST(Glb, EyesTurnWithTheGaze) {
   auto face = made_up_face(Surface::plain);
   testing::add_inner_eye_corners(face.performance);
+  const FaceBacking none;
+  write_glb(scratch("no_backing.glb"), face.performance, face.scan, {.backing = &none});
+  EXPECT_EQ(read_back(scratch("no_backing.glb")).nodes.size(), 1u) << "the caller's is taken";
   const auto file = scratch("gaze.glb");
   write_glb(file, face.performance, face.scan);
   EXPECT_EQ(turns_of_node(read_back(file), "eye_L").rows(), 0);

@@ -272,6 +272,21 @@ TEST(HtmlReport, HoldsTheGazeInEachFrame) {
   EXPECT_THROW(write_html_report(file, input), std::invalid_argument);
 }
 
+TEST(HtmlReport, TakesTheBackingThatTheCallerHas) {
+  auto face = made_up_face(Surface::plain);
+  testing::add_inner_eye_corners(face.performance);
+  const auto modes = displacement_modes(face.performance.skin_displacement_m);
+  ReportInput input{face.performance, face.scan, modes, &face.symmetry};
+  const auto eyeballs = [&] {
+    BinaryBlock block;
+    return replay_manifest(input, block).at("eyeballs").size();
+  };
+  EXPECT_EQ(eyeballs(), 2u) << "it is made";
+  const FaceBacking none;
+  input.backing = &none;
+  EXPECT_EQ(eyeballs(), 0u);
+}
+
 TEST(HtmlReport, HoldsTeethAndTheJawsPlaces) {
   const auto face = made_up_face(Surface::plain);
   const auto modes = displacement_modes(face.performance.skin_displacement_m);

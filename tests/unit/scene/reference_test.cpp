@@ -29,6 +29,15 @@ TEST(Reference, HasARowForEachKey) {
   }
 }
 
+TEST(Reference, SaysHowFarPatchesOfTheChinFade) {
+  const std::string page = reference_markdown();
+  const auto row = page.find("| `patch_radius_mm` |");
+  ASSERT_NE(row, std::string::npos);
+  EXPECT_THAT(page.substr(row, page.find('\n', row) - row),
+              testing::AllOf(testing::HasSubstr("points of the chin fade out over a further 20 mm"),
+                             testing::HasSubstr("unless the radius is 0")));
+}
+
 TEST(Reference, ExampleIsASoundScene) {
   const std::string page = reference_markdown();
   const auto start = page.find("```toml\n") + 8;

@@ -114,6 +114,15 @@ TEST_P(AgreementOnRefusals, InOneSentence) {
   EXPECT_EQ(checked, by_run());
 }
 
+TEST_P(AgreementOnRefusals, BeforeAnythingIsAssembled) {
+  std::vector<std::string> stages;
+  const auto begun = [&](const std::string& stage) { stages.push_back(stage); };
+  EXPECT_THROW(FaceSession(scene(), {.certainty = Certainty::on_request, .stage = begun}),
+               InputError);
+  EXPECT_THAT(stages, Not(testing::IsEmpty()));
+  EXPECT_THAT(stages, Not(Contains("assembling and factoring")));
+}
+
 const AgreeCase kRefused[] = {
     {"Factor",
      {"tissue.region=[{ name = \"cheek_R\", poisson_factor = 2 }]"},

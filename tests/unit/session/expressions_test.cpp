@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hyperex/motion/rest.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/note_matchers.hpp"
@@ -118,6 +119,17 @@ TEST_F(Looking, CountsFromTheStartOfTheRun) {
       << "a run that begins there leads the face from rest first";
 }
 
+TEST_F(Looking, IsLedFromRestAsTheFaceIs) {
+  const auto yaw_deg = [&](const std::string& keys, double time_s) {
+    return expression::degrees_of(read_inputs(scene(keys)).gaze.value().at(time_s))[2];
+  };
+  EXPECT_NEAR(yaw_deg("time.start_s = 0.5\n", 0), 0, 1e-9);
+  EXPECT_NEAR(yaw_deg("time.start_s = 0.5\n", 0.1), 0.05792 * kHalf_deg, 1e-6);
+  const std::string slowly = "time.start_s = 0.5\nmotion.time_scale = 2\n";
+  EXPECT_NEAR(yaw_deg(slowly, 0.2), 0.05792 * kHalf_deg, 1e-6);
+  EXPECT_NEAR(yaw_deg(slowly, 1), kHalf_deg, 1e-6);
+}
+
 TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
   FaceSession face(scene("drive.by = \"displacement\"\nmesh.element_size_mm = 10\n"
                          "mesh.layers = 1\ntime.frame_rate_hz = 5\n"),
@@ -132,6 +144,8 @@ TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
     EXPECT_NEAR(degrees[2], 0.8 * kHalf_deg, 1e-6);
   }
   EXPECT_THAT(face.notes(), testing::Not(testing::Contains(test::has_id("eyes.closed"))));
+  ASSERT_TRUE(face.backing()) << "it was made for the notes";
+  EXPECT_EQ(face.backing()->eyeballs.size(), 2u);
 }
 
 TEST(Expressions, WithoutAGazeTurnNoEyes) {

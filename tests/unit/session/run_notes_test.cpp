@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/report/face_backing.hpp"
 #include "support/note_matchers.hpp"
 
 namespace hyperex::session {
@@ -62,13 +63,22 @@ TEST(GazeNotes, SayWhichEyesOfTheScanAreClosed) {
   p.landmarks.positions = {Points(Eigen::Index(face.landmarks.size()), 3)};
   Eigen::Index row = 0;
   for (const auto& [name, at] : face.landmarks) p.landmarks.positions[0].row(row++) = at;
-  EXPECT_THAT(gaze_notes(p), ElementsAre()) << "without a gaze";
-  p.gaze.resize(1);
-  EXPECT_THAT(gaze_notes(p), ElementsAre()) << "its eyes are open";
+  EXPECT_THAT(gaze_notes(p, nullptr), ElementsAre()) << "without a gaze";
+  const report::FaceBacking backing = report::face_backing(p);
+  EXPECT_THAT(gaze_notes(p, &backing), ElementsAre()) << "its eyes are open";
+  report::FaceBacking other = backing;
+  std::erase_if(other.openings, [&](const report::Opening& opening) {
+    const Vec3 middle = p.skin_rest.points(opening.loop, Eigen::all).colwise().mean();
+    return (middle - face.landmarks.at("ibug68_45")).norm() < 0.03;  // the left eye's outer corner
+  });
+  EXPECT_THAT(gaze_notes(p, &other),
+              ElementsAre(AllOf(is_note("eyes.closed"), says("at the left eye"),
+                                says("this eye is not seen"))))
+      << "the openings are those handed over";
   p.landmarks.names.clear();
   p.landmarks.positions.clear();
-  EXPECT_THAT(gaze_notes(p),
-              ElementsAre(AllOf(is_note("eyes.closed"), says("at its eyes"), says("gaze.csv"))));
+  EXPECT_THAT(gaze_notes(p, &backing),
+              ElementsAre(AllOf(is_note("eyes.closed"), says("at either eye"), says("gaze.csv"))));
 }
 
 TEST(RunWarnings, TheReportsOwnNotesComeFirst) {
@@ -86,8 +96,9 @@ TEST(SymmetryNotes, SayWhyThePlaneIsTheLandmarks) {
   symmetry.map.emplace();
   EXPECT_THAT(symmetry_notes(symmetry, ""), ElementsAre()) << "the surface has refined it";
   symmetry.map->plane.note = "too little of the reflected face lies near the face";
-  EXPECT_THAT(symmetry_notes(symmetry, ""),
-              ElementsAre(AllOf(is_warning("symmetry.plane_of_landmarks"), says("too little"))));
+  EXPECT_THAT(
+      symmetry_notes(symmetry, ""),
+      ElementsAre(AllOf(test::is_warning("symmetry.plane_of_landmarks"), says("too little"))));
 }
 
 TEST(NotesOnContact, SayThatNothingTouchesOnlyWhereContactIsOn) {

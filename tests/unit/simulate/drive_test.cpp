@@ -227,6 +227,16 @@ TEST_F(Drive, AFadingPatchOfTheChinHasNoStepAtItsEdge) {
   EXPECT_LT((reached(p) - Eigen::MatrixXd::Identity(7, 7)).cwiseAbs().maxCoeff(), 1e-3);
 }
 
+TEST_F(Drive, APatchOfRadiusZeroDoesNotFade) {
+  const auto points = at_nodes(test::seven_points());
+  const DriveField field = field_of(points, {});
+  const std::vector<char> fading = on_chin(points, face_.landmarks);
+  const DrivenPatches even = driven_patches(field, face_.mesh, 0, "motion.csv"),
+                      p = driven_patches(field, face_.mesh, 0, "motion.csv", fading);
+  EXPECT_EQ(p.nodes, even.nodes);
+  EXPECT_TRUE((p.share.array() == 1).all());
+}
+
 TEST_F(Drive, ATinyPatchIsOneNodeAPoint) {
   const DrivenPatches p = patches(test::seven_points(), 1e-9);
   EXPECT_EQ(p.nodes.size(), 7u);
