@@ -65,11 +65,11 @@ std::vector<Note> gaze_notes(const simulate::Performance& p, const report::FaceB
   return {make_note(
       "eyes.closed",
       fmt::format("the recording has a gaze, but the scan has no opening at {}, or no landmarks "
-                  "there, so that {} is not seen to turn; gaze.csv has the angles",
+                  "there: {} seen to turn; gaze.csv has the angles",
                   !one    ? "either eye"
                   : right ? "the left eye"
                           : "the right eye",
-                  one ? "this eye" : "neither"))};
+                  one ? "this eye is not" : "neither is"))};
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
