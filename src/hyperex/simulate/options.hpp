@@ -112,9 +112,11 @@ struct SupportOptions {
       "the stiffnesses (in kPa/mm) have no effect: muscles have their own.";
   template <class Visitor>
   static void describe(Visitor& v) {
-    v.option(HX_MEMBER(border_held),
-             "The tissue's outer border, from the skin to the inner surface.",
-             {.key = "border", .words = {"held", "free"}});
+    v.option(
+        HX_MEMBER(border_held),
+        "The tissue's outer border, from the skin to the inner surface. Even if held, it is free "
+        "within 35 mm of the jaw's line and slides over the skull within 35 mm above the brows.",
+        {.key = "border", .words = {"held", "free"}});
     v.option(HX_MEMBER(skull),
              "The inner surface over the skull: slides on a loose layer (an elastic foundation), "
              "is fixed, or is free.");

@@ -92,6 +92,23 @@ TEST_F(BoundaryTest, DrivenNodesTakeTheirPointsAndHeldOnesStay) {
   EXPECT_GE(met, 3);
 }
 
+TEST_F(BoundaryTest, HoldsTheBorderSaveAtTheHairlineAndTheJaw) {
+  const Boundary b = boundary();
+  const std::set<int> prescribed(b.prescribed().begin(), b.prescribed().end());
+  const std::vector<char> slides = over_frontalis(face_.mesh, face_.landmarks);
+  const std::vector<char> jaw = near_jaw(face_.mesh, face_.landmarks);
+  int free = 0, held = 0;
+  for (int v = 0; v < face_.mesh.volume.surface_nodes(); ++v) {
+    if (!face_.mesh.on_border[std::size_t(v)]) continue;
+    const bool moves = slides[std::size_t(v)] || jaw[std::size_t(v)];
+    ++(moves ? free : held);
+    for (const int node : {v, int(face_.mesh.volume.inner_node(v))})
+      EXPECT_NE(prescribed.contains(3 * node), moves) << v;
+  }
+  EXPECT_GT(free, 5);
+  EXPECT_GT(held, 5);
+}
+
 TEST_F(BoundaryTest, IsLinearInTheDrivenPoints) {
   options_.support.mandible = Mandible::free;
   Boundary b = boundary();
