@@ -91,6 +91,9 @@ simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landm
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
                                  double max_gap_s, const Names& rigid_points, bool still_head,
                                  const std::string& method) {
+  if (still_head && !rigid_points.empty())
+    refuse("rigid_points", fmt::format("{}", fmt::join(rigid_points, ", ")),
+           "none, as still_head leaves the head where it is");
   const session::CleanedRecording cleaned = session::cleaned_recording(motion);
   warn_user(cleaned.warnings);
   const Motion whole = filled(cleaned.motion, max_gap_s);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -201,8 +202,9 @@ metrics::Excursions judged_excursions(const SymmetryOptions& options,
 void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> unit) {
   SurfaceFrames frames =
       read_surface_frames(options.motion, options.landmarks, unit, options.rate_hz);
-  const motion::StabilisedMotion stabilised =
-      options.keep_head ? motion::with_head_kept(frames.tracks) : steady(frames);
+  const motion::StabilisedMotion stabilised = options.keep_head
+                                                  ? motion::with_head_kept(frames.tracks)
+                                                  : steady(frames, options.rigid_points);
   std::vector<PointsF> displacement;
   for (const Points& at : frames.positions)
     displacement.push_back((at - frames.rest.points).cast<float>());
@@ -216,6 +218,15 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
   report(options, all, jitter, stabilised);
+}
+
+/// Throws InputError for points that hold the head's pose where it is not estimated.
+void check_rigid_points(const SymmetryOptions& options) {
+  if (!options.rig.empty() && !options.rigid_points.empty())
+    throw InputError(InputProblem{"symmetry", 0, "--rigid-points",
+                                  fmt::format("{}", fmt::join(options.rigid_points, ",")),
+                                  "none, as the weights of --rig move a face whose head stays "
+                                  "where it is"});
 }
 
 /// The files of a folder. Each of them may be a frame.
@@ -256,6 +267,7 @@ motion::Motion read(const SymmetryOptions& options, const fs::path& file,
 
 void run(const SymmetryOptions& options) {
   stated_jitter_mm(options);  // throws before the work begins
+  check_rigid_points(options);
   std::optional<io::LengthUnit> unit;
   if (!options.unit.empty()) unit = io::length_unit(options.unit);
   fs::path file = options.motion, run_folder;
@@ -353,9 +365,11 @@ void add_symmetry(CLI::App& program) {
                     "Do not remove the head pose before measuring excursions. No difference of "
                     "excursions is decided then, as the head's motion may make it");
   command
-      ->add_option("--rigid-points", options->rigid_points,
-                   "Points that carry the head's pose, with commas (default: all landmarks; "
-                   "without those of the skull, points that keep their distances)")
+      ->add_option(
+          "--rigid-points", options->rigid_points,
+          "Points that carry the head's pose, with commas; of surfaces, names of --landmarks "
+          "(default: all landmarks; without those of the skull, points that keep their "
+          "distances)")
       ->delimiter(',')
       ->excludes("--keep-head");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")

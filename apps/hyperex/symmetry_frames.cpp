@@ -79,8 +79,10 @@ SurfaceFrames read_surface_frames(const fs::path& folder, const fs::path& landma
   return frames;
 }
 
-motion::StabilisedMotion steady(SurfaceFrames& frames) {
-  motion::StabilisedMotion steadied = motion::stabilise(frames.tracks);
+motion::StabilisedMotion steady(SurfaceFrames& frames,
+                                const std::vector<std::string>& rigid_points) {
+  motion::StabilisedMotion steadied =
+      motion::stabilise(frames.tracks, {.rigid_points = rigid_points});
   frames.tracks = steadied.motion;
   for (std::size_t k = 0; k < frames.positions.size(); ++k) {
     const Eigen::Isometry3d back = frames.tracks.head_pose[k].inverse();

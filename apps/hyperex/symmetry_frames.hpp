@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hyperex/io/landmarks.hpp"
@@ -30,7 +31,9 @@ SurfaceFrames read_surface_frames(const std::filesystem::path& folder,
 
 /// Removes the head's rigid motion, estimated from the tracks as that of a recording
 /// (motion::stabilise), from positions and tracks. Returns the tracks with the errors of the pose.
-/// Throws InputError where the landmarks do not determine it.
-motion::StabilisedMotion steady(SurfaceFrames& frames);
+/// `rigid_points`: the landmarks that hold it; empty: all. Throws InputError where the landmarks do
+/// not determine it, or for a name that is none of them.
+motion::StabilisedMotion steady(SurfaceFrames& frames,
+                                const std::vector<std::string>& rigid_points);
 
 }  // namespace hyperex::cli

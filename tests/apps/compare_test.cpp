@@ -243,6 +243,11 @@ TEST_F(Program, DrawsTheSymmetryOfSurfaces) {
   const std::string again = "symmetry face --landmarks l.json --jitter-mm 0.01 --excursions ";
   ASSERT_EQ(call(again + "r.csv --repetition-mm 9").status, 0);
   EXPECT_EQ(corners("r.csv", "decided"), "0");
+  // Points of the skull that the user names hold the pose in place of all landmarks.
+  ASSERT_EQ(call(again + "n.csv --rigid-points ibug68_27,ibug68_36,ibug68_45,ibug68_0").status, 0);
+  EXPECT_NE(corners("n.csv", "pose_floor_mm"), corners("e.csv", "pose_floor_mm"));
+  expect_refused(again + "w.csv --rigid-points ibug68_27,ibug68_36,nobody",
+                 "there is no point nobody");
   const Outcome kept = call(again + "k.csv --keep-head");
   ASSERT_EQ(kept.status, 0) << kept.err;
   EXPECT_THAT(kept.out, testing::Not(HasSubstr("head's pose: ")));

@@ -89,6 +89,8 @@ TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   };
   refused("check scene.toml", 2, "rig.glb");
   refused("symmetry weights.csv --rig none.glb", 2, "none.glb");
+  refused("symmetry weights.csv --rig rig.glb --rigid-points a,b,c", 2,
+          "--rigid-points = a,b,c: expected none, as the weights of --rig move a face");
   put(in("rig.glb"), "no model");
   refused("symmetry weights.csv --rig rig.glb", 2, "rig.glb");
   put(in("points.toml"),

@@ -105,6 +105,33 @@ TEST_F(Visits, TakeTheHeadOutByTheSamePointsAtEachVisit) {
   EXPECT_EQ(read_file(in("found.csv")), read_file(in("named.csv")));
 }
 
+TEST_F(Visits, MatchPointsByTheirPlaceWhereRecordingsNameThemDifferently) {
+  motion::Motion opening = motion::embedded_mouth_opening(good_landmarks());
+  keep_mouth_and_headband(opening);
+  const auto called = [&](const std::vector<std::string>& heads) {
+    motion::Motion renamed = opening;
+    for (std::size_t i = 0; i < heads.size(); ++i) {
+      const int row = opening.index_of("head_" + std::to_string(i + 1));
+      renamed.names[std::size_t(row)] = heads[i];
+    }
+    return renamed;
+  };
+  motion::write_motion_csv(in("before.csv"), called({"17", "21", "26", "27", "36", "45"}));
+  motion::write_motion_csv(in("after.csv"), called({"ibug68_17", "ibug68_21", "ibug68_26",
+                                                    "ibug68_27", "ibug68_36", "exocanthion_L"}));
+  const Outcome found = call("visits v.toml --table found.csv");
+  ASSERT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err, testing::AllOf(HasSubstr("taken out by 17, 21, 26, 27, 36, 45, which"),
+                                        testing::Not(HasSubstr("head pose is not taken out"))));
+  const std::string visits = read_file(in("v.toml"));
+  std::ofstream(in("v.toml")) << "rigid_points = [\"17\", \"ibug68_21\", \"26\", \"27\", "
+                                 "\"36\", \"ibug68_45\"]\n"
+                              << visits;
+  const Outcome named = call("visits v.toml --table named.csv");
+  ASSERT_EQ(named.status, 0) << named.err;
+  EXPECT_EQ(read_file(in("found.csv")), read_file(in("named.csv")));
+}
+
 TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {
   std::ofstream(in("mine.html")) << "<html>mine</html>";
   std::ofstream(in("text.csv")) << "no recording\n";

@@ -91,6 +91,15 @@ class WildReadings(unittest.TestCase):
             self.prepared(0.06, 8, 40)
 
 
+class HeadPose(unittest.TestCase):
+    def test_points_that_hold_it_and_a_head_that_is_still_are_refused(self):
+        motion = hyperex.embedded_mouth_opening(face().landmarks)
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    "rigid_points = ibug68_27, ibug68_36, ibug68_45: expected none"):
+            hyperex.prepare_motion(motion, face().landmarks, still_head=True,
+                                   rigid_points=["ibug68_27", "ibug68_36", "ibug68_45"])
+
+
 class Files(unittest.TestCase):
     def test_same_message_as_the_program(self):
         with self.assertRaisesRegex(hyperex.InputError, "^no_such.ply: "):

@@ -90,6 +90,14 @@ void let_a_marker_jump_slowly(const fs::path& folder) {
   });
 }
 
+/// Half a second in which the mouth opens.
+void lose_a_marker_and_hold_it(const fs::path& folder) {
+  write_opening(folder, 0, 41, [](motion::Motion& m) {
+    const int lip = m.index_of(face::ibug(57));
+    for (std::size_t k = 16; k <= 31; ++k) m.positions[k].row(lip) = m.positions[15].row(lip);
+  });
+}
+
 void let_a_marker_drift(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (std::size_t k = 0; k < m.positions.size(); ++k)
@@ -214,6 +222,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.jumps", true, "", let_a_marker_stay_away},
       {"recording.zeros", true, "", lose_a_marker},
       {"recording.lone_samples", true, "", let_a_marker_jump_slowly},
+      {"recording.held_points", true, "", lose_a_marker_and_hold_it},
       {"recording.far_points", true, "", let_a_marker_drift},
       {"recording.wild_weights", true, "motion.file=\nmotion.arkit=\"spike.csv\"",
        let_a_weight_jump},

@@ -67,9 +67,9 @@ describe('the first figures', () => {
       const verdict = text.split(': ')[1];
       // A variant's change against base is shown beside the difference of the sides: sides.test.mjs.
       if (i > 0) assert.match(await page.locator('.answers dd').first().textContent(), /^(both corners go|(right|left) .*) (as|than) in base/);
-      else if (/undecided/.test(text) || /cannot tell/.test(text)) assert.match(verdict, /^\d+\.\d+ mm apart/);
+      else if (/undecided/.test(text) || /cannot tell/.test(text)) assert.match(verdict, /^a difference of \d+\.\d+ mm/);
       else if (Math.abs(left - right) >= 0.05)
-        assert.ok(text.endsWith(`: ${Math.abs(Number(left.toFixed(1)) - Number(right.toFixed(1))).toFixed(1)} mm apart`), text);
+        assert.ok(text.endsWith(`: a difference of ${Math.abs(Number(left.toFixed(1)) - Number(right.toFixed(1))).toFixed(1)} mm`), text);
     }
   });
 
@@ -126,7 +126,7 @@ test('what is below its floor is undecided, and warnings come first', { skip: Bo
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'undecided.html');
   await writeFile(file, withData(html, data));
   const { page, close } = await openPage(browser, file);
-  assert.equal(await page.locator('#headline').textContent(), 'right 7.9 mm, left 8.2 mm: 0.3 mm apart: undecided (below 0.9 mm)');
+  assert.equal(await page.locator('#headline').textContent(), 'right 7.9 mm, left 8.2 mm: a difference of 0.3 mm: undecided (below 0.9 mm)');
   const cells = await page.locator('.excursions tbody td .undecided').allTextContents();
   assert.deepEqual(cells, ['undecided (below 0.9 mm)', 'undecided (below 5.5 mm/s)']);
   assert.deepEqual(await page.locator('#note-list li').allTextContents(), ['Warning: A landmark is off', 'The scan has a hole']);
@@ -149,7 +149,7 @@ test('without known jitter a difference above its floor is not decided', { skip:
   const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'unknown.html');
   await writeFile(file, withData(html, data));
   const { page, close } = await openPage(browser, file);
-  assert.equal(await page.locator('#headline').textContent(), 'right 6.1 mm, left 8.2 mm: 2.1 mm apart: cannot tell (jitter not known)');
+  assert.equal(await page.locator('#headline').textContent(), 'right 6.1 mm, left 8.2 mm: a difference of 2.1 mm: cannot tell (jitter not known)');
   assert.deepEqual(await page.locator('.excursions tbody td .undecided').allTextContents(), Array(4).fill('cannot tell'));
   await close();
   await rm(dirname(file), { recursive: true });

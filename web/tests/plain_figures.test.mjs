@@ -114,13 +114,13 @@ test('beside S(t) stand the millimetres, and where both order two faces differen
   });
   const { page, data, close } = await made(7);
   const { name } = data.variants[0];
-  assert.match(await caption(page).textContent(), new RegExp(`^Corners of the mouth – base: 2\\.0 mm apart, right/left 75 %\\. By its largest S “base” is more symmetric than “${name}”`));
+  assert.match(await caption(page).textContent(), new RegExp(`^Corners of the mouth – base: a difference of 2\\.0 mm, right/left 75 %\\. By its largest S “base” is more symmetric than “${name}”`));
   await page.keyboard.press('2');
-  assert.match(await caption(page).textContent(), /by the millimetres of the corners less so \(2\.0 mm apart, not 1\.0 mm\)/);
+  assert.match(await caption(page).textContent(), /by the millimetres of the corners less so \(a difference of 2\.0 mm, not 1\.0 mm\)/);
   await close();
   const agreed = await made(9);
   await agreed.page.keyboard.press('2');
-  assert.match(await caption(agreed.page).textContent(), /3\.0 mm apart, right\/left 67 %\. S = ln/);
+  assert.match(await caption(agreed.page).textContent(), /a difference of 3\.0 mm, right\/left 67 %\. S = ln/);
   await agreed.close();
 });
 

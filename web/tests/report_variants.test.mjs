@@ -201,7 +201,7 @@ describe('a report with variants', () => {
       if (!skin) titles.push(await page.locator('#colour-bar figcaption').textContent());
     }
     assert.equal(titles[0], 'Displacement from rest mm');
-    assert.equal(titles[1], 'Distance from base mm');
+    assert.equal(titles[1], 'Distance from the unchanged face mm');
     assert.equal(titles[2], 'Asymmetry of the motion mm');
     assert.equal(titles[3], 'Expected error of the skin mm');
     assert.equal(titles[4], 'Stiffness kPa');

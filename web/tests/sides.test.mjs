@@ -144,12 +144,12 @@ test('what a variant changes and whether its sides differ are two answers, each 
   const { questions, change, apart, below } = await dragged({ right: 4.1 });
   assert.deepEqual(questions, ['Change against base', 'Difference of the sides']);
   assert.match(change, /than in base/);
-  assert.equal(apart, '2.7 mm apart');
+  assert.equal(apart, 'a difference of 2.7 mm');
   assert.match(below, /^These are the largest distances of both corners from rest in .+\. /, 'a sentence says what the figures are');
 });
 
 test('a figure and the limit that it is below do not print alike', async () => {
   // 0.66 mm farther with a band of 0.7 mm.
   assert.match((await dragged({ right: 7.4 })).change, /0\.66 mm farther than in base: undecided \(below 0\.70 mm\)$/);
-  assert.equal((await dragged({ right: 8.91, left: 8.83 })).apart, '0.08 mm apart: undecided (below 0.10 mm)');
+  assert.equal((await dragged({ right: 8.91, left: 8.83 })).apart, 'a difference of 0.08 mm: undecided (below 0.10 mm)');
 });

@@ -43,6 +43,10 @@ constexpr NoteKind kKinds[] = {
     "A point moves by more than 20 mm and faster than 0.6 m/s from one reading to the next, and "
     "stays away too long to be mended. At 24 samples a second and more, 5 mm count if it jumps back "
     "within 0.3 s while the points beside it stay. The readings were kept."),
+  warning("recording.held_points", "motion.file",
+    "A point has equal readings for at least 0.2 s while three of the four points beside it move by "
+    "1 mm or more, and moves at other times. The system lost this marker and held it; the readings "
+    "were kept."),
   warning("recording.far_points", "motion.file",
     "A point goes farther from its first place than this part of a face can: corners of the mouth "
     "38 mm, upper lip 30, brows 25, nose and eyes 20, lower lip and chin 75."),

@@ -13,5 +13,7 @@ std::string ibug(int k);
 const std::vector<std::string>& all_ibug();
 /// The number in an iBUG name, 48 for "ibug68_48"; nothing for any other name.
 std::optional<int> ibug_number(std::string_view name);
+/// "ibug68_48" for the short names "48" and "p48"; other names unchanged.
+std::string full_name(const std::string& name);
 
 }  // namespace hyperex::face

@@ -40,6 +40,12 @@ std::optional<int> ibug_number_of_place(const std::string& name) {
   return own ? own : ibug_number(other_name(name));
 }
 
+std::string place_name(const std::string& name) {
+  const std::string full = full_name(name);
+  const std::optional<int> number = ibug_number_of_place(full);
+  return number ? ibug(*number) : full;
+}
+
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name) {
   for (const std::string& either : {name, other_name(name)})
     if (const auto found = landmarks.find(either);

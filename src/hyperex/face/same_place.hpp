@@ -19,6 +19,10 @@ std::string other_name(const std::string& name);
 /// there is none.
 std::optional<int> ibug_number_of_place(const std::string& name);
 
+/// One name for each place: "ibug68_36" for "36", "p36", "ibug68_36" and "exocanthion_R". Names of
+/// places that iBUG does not have are unchanged.
+std::string place_name(const std::string& name);
+
 /// The position of a landmark under this name or under its other name; nothing if neither is given
 /// with finite coordinates.
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name);

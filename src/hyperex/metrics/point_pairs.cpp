@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/metrics/point_pairs.hpp"
 
-#include <algorithm>
-
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 
@@ -23,17 +21,10 @@ std::string pair_name(const std::string& left, const std::string& right) {
 
 }  // namespace
 
-std::string full_name(const std::string& name) {
-  const std::string digits = name.starts_with("p") ? name.substr(1) : name;
-  const bool number =
-      !digits.empty() && digits.size() <= 2 &&
-      std::all_of(digits.begin(), digits.end(), [](char c) { return c >= '0' && c <= '9'; });
-  return number ? face::ibug(std::stoi(digits)) : name;
-}
-
 int column_of(const motion::Motion& motion, const std::string& full) {
   for (size_t i = 0; i < motion.names.size(); ++i)
-    if (motion.names[i] == full || full_name(motion.names[i]) == full) return static_cast<int>(i);
+    if (motion.names[i] == full || face::full_name(motion.names[i]) == full)
+      return static_cast<int>(i);
   return -1;
 }
 
@@ -41,7 +32,7 @@ std::vector<PointPair> point_pairs(const motion::Motion& motion) {
   std::vector<PointPair> pairs;
   if (motion.positions.empty()) return pairs;
   for (size_t i = 0; i < motion.names.size(); ++i) {
-    const std::string left = full_name(motion.names[i]);
+    const std::string left = face::full_name(motion.names[i]);
     const std::string right = face::mirrored_landmark(left);
     if (right == left || !is_left(left)) continue;
     const int l = static_cast<int>(i), r = column_of(motion, right);

@@ -18,9 +18,6 @@ struct PointPair {
 /// omitted.
 std::vector<PointPair> point_pairs(const motion::Motion& motion);
 
-/// "ibug68_48" for the short names "48" and "p48"; other names unchanged.
-std::string full_name(const std::string& name);
-
 /// The column of a point by its full name; the motion may have a short one ("48"). -1: none.
 int column_of(const motion::Motion& motion, const std::string& full);
 

@@ -8,6 +8,7 @@
 
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/stabilise.hpp"
 
@@ -31,27 +32,40 @@ std::vector<int> candidates(const Motion& motion) {
   return out;
 }
 
-/// The names of the candidates that all motions have, in the order of the first.
-std::vector<std::string> common_candidates(const std::vector<const Motion*>& motions) {
-  std::vector<std::string> common;
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    std::vector<std::string> names;
-    for (const int row : candidates(*motions[i]))
-      names.push_back(motions[i]->names[std::size_t(row)]);
-    if (i == 0)
-      common = std::move(names);
-    else
-      std::erase_if(common, [&](const std::string& name) {
-        return std::ranges::find(names, name) == names.end();
-      });
-  }
-  return common;
+/// The one of `rows` whose point is called `name`, else the one at the same place; -1: none.
+int row_of(const Motion& motion, const std::vector<int>& rows, const std::string& name) {
+  const auto called = [&](int row) -> const std::string& { return motion.names[std::size_t(row)]; };
+  auto found = std::ranges::find(rows, name, called);
+  if (found == rows.end())
+    found = std::ranges::find(rows, face::place_name(name),
+                              [&](int row) { return face::place_name(called(row)); });
+  return found == rows.end() ? -1 : *found;
 }
 
-std::vector<int> columns_of(const Motion& motion, const std::vector<std::string>& names) {
-  std::vector<int> columns;
-  for (const std::string& name : names) columns.push_back(motion.index_of(name));
-  return columns;
+/// Points that all motions have.
+struct CommonPoints {
+  std::vector<std::string> names;      ///< in the first motion
+  std::vector<std::vector<int>> rows;  ///< of each motion, in the order of the names
+};
+
+CommonPoints common_candidates(const std::vector<const Motion*>& motions) {
+  std::vector<std::vector<int>> of_each;
+  for (const Motion* motion : motions) of_each.push_back(candidates(*motion));
+  CommonPoints common{{}, std::vector<std::vector<int>>(motions.size())};
+  for (const int first : of_each.front()) {
+    const std::string& name = motions.front()->names[std::size_t(first)];
+    std::vector<int> rows;
+    for (std::size_t i = 0; i < motions.size(); ++i) {
+      const int row = row_of(*motions[i], of_each[i], name);
+      // Two names of one place in one recording may meet a single one in another.
+      if (row >= 0 && std::ranges::find(common.rows[i], row) == common.rows[i].end())
+        rows.push_back(row);
+    }
+    if (rows.size() < motions.size()) continue;
+    common.names.push_back(name);
+    for (std::size_t i = 0; i < motions.size(); ++i) common.rows[i].push_back(rows[i]);
+  }
+  return common;
 }
 
 /// The largest change of the distance between each pair of `points`.
@@ -154,10 +168,10 @@ std::vector<Eigen::Index> largest_still_set(const Eigen::MatrixXd& change) {
   return best;
 }
 
-bool lie_near_a_line(const Motion& motion, const std::vector<std::string>& names) {
-  Points at(Eigen::Index(names.size()), 3);
-  for (std::size_t i = 0; i < names.size(); ++i)
-    at.row(Eigen::Index(i)) = motion.positions.front().row(motion.index_of(names[i]));
+bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
+  Points at(Eigen::Index(rows.size()), 3);
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    at.row(Eigen::Index(i)) = motion.positions.front().row(rows[i]);
   return spread_off_line(at) < kLeastStillSpread;
 }
 
@@ -170,17 +184,33 @@ std::vector<std::string> find_still_points(const Motion& motion) {
 std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions) {
   if (std::ranges::any_of(motions, [](const Motion* m) { return m->positions.size() < 2; }))
     return {};
-  const std::vector<std::string> names = common_candidates(motions);
-  const auto count = Eigen::Index(names.size());
+  if (motions.empty()) return {};
+  const CommonPoints common = common_candidates(motions);
+  const auto count = Eigen::Index(common.names.size());
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(count, count);
-  for (const Motion* motion : motions)
-    change = change.cwiseMax(distance_changes(*motion, columns_of(*motion, names))).eval();
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    change = change.cwiseMax(distance_changes(*motions[i], common.rows[i])).eval();
+  const std::vector<Eigen::Index> set = largest_still_set(change);
+  if (set.size() < kLeastStillPoints) return {};
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    std::vector<int> rows;
+    for (const Eigen::Index k : set) rows.push_back(common.rows[i][std::size_t(k)]);
+    if (lie_near_a_line(*motions[i], rows)) return {};
+  }
   std::vector<std::string> still;
-  for (const Eigen::Index i : largest_still_set(change)) still.push_back(names[std::size_t(i)]);
-  if (still.size() < kLeastStillPoints) return {};
-  const bool on_a_line =
-      std::ranges::any_of(motions, [&](const Motion* m) { return lie_near_a_line(*m, still); });
-  return on_a_line ? std::vector<std::string>{} : still;
+  for (const Eigen::Index k : set) still.push_back(common.names[std::size_t(k)]);
+  return still;
+}
+
+std::vector<std::string> own_names(const Motion& motion, const std::vector<std::string>& points) {
+  std::vector<int> rows;
+  for (int row = 0; row < int(motion.names.size()); ++row) rows.push_back(row);
+  std::vector<std::string> names;
+  for (const std::string& point : points) {
+    const int row = row_of(motion, rows, point);
+    names.push_back(row >= 0 ? motion.names[std::size_t(row)] : point);
+  }
+  return names;
 }
 
 std::vector<UnsteadyPoint> unsteady_points(const Motion& motion,

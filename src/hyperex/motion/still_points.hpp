@@ -15,8 +15,13 @@ namespace hyperex::motion {
 /// line. Of a long recording 200 to 400 evenly spaced samples are used.
 std::vector<std::string> find_still_points(const Motion& motion);
 /// The same of several recordings of one face, not null: points that all of them have and that keep
-/// their distances in each. How far they are apart may differ between the recordings.
+/// their distances in each. How far they are apart may differ between the recordings. They may have
+/// different names of one place (face::place_name) there; those of the first are returned.
 std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions);
+
+/// What a motion calls these points, in their order: its name of the same place (face::place_name)
+/// where it lacks the name itself. Points that it does not have keep their name.
+std::vector<std::string> own_names(const Motion& motion, const std::vector<std::string>& points);
 
 /// Allows for the motion of a marker glued to the skin over bone, and for measurement noise.
 inline constexpr double kStillPoints_m = 1e-3;

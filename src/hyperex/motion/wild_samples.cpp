@@ -238,9 +238,10 @@ std::string place_of(const Motion& motion, const std::string& point, std::size_t
 }
 
 MendedMotion without_wild_samples(const Motion& motion) {
-  MendedMotion out{motion, {}, {}, {}, {}};
+  MendedMotion out{motion, {}, {}, {}, {}, {}};
   if (motion.names.size() < 3) return out;
   out.zeros = without_zeros(out.motion);
+  out.held = held_readings(out.motion);
   if (motion.positions.size() < 2 * kHalfWindow + 1) {
     out.jumps = jumps_of(out.motion);
     return out;

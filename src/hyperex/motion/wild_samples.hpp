@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/motion/held_readings.hpp"
 #include "hyperex/motion/motion.hpp"
 
 namespace hyperex::motion {
@@ -30,6 +31,8 @@ struct MendedMotion {
   /// the same order: points that jump away and stay there longer than can be mended. The ways there
   /// and back of brief stays (brief_stays.hpp) that are too long for it are here as well.
   std::vector<WildSample> jumps;
+  /// Readings of markers that were lost and are held at one place (held_readings.hpp). Kept.
+  std::vector<HeldReadings> held;
 };
 
 /// A jump counts if it exceeds both this length (m) and this speed (m/s). Lips and jaw reach about

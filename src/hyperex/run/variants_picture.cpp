@@ -109,7 +109,7 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
   sheet.note = fmt::format(
       "the faces at {:.2f} s, where they differ most; colour: greatest distance over "
-      "time from base; R and L: the subject's own sides",
+      "time from the unchanged face; R and L: the subject's own sides",
       p.frame_time_s[shown]);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top.mm}, "distance (mm)", top.capped};

@@ -17,6 +17,7 @@ motion::MendedMotion only_reported(motion::MendedMotion mended, const motion::Mo
                 [](const motion::WildSample& jump) { return jump.off_m <= motion::kWildJump_m; });
   std::ranges::stable_sort(mended.jumps, {}, &motion::WildSample::sample);
   for (auto* readings : {&mended.wild, &mended.zeros, &mended.lone}) readings->clear();
+  mended.held.clear();
   mended.motion = recorded;
   return mended;
 }

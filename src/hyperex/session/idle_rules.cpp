@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which keys have no effect beside which others. Where another warning names the same keys
 // (law.idle, region.idle, support.idle), a rule lets them act.
+#include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/idle_keys.hpp"
 
 namespace hyperex::session {
@@ -103,7 +104,12 @@ std::vector<IdleRule> rules_of_inputs() {
        [](const Scene& s, DriveBy) {
          return !s.tissue.mirror || !s.tissue.points.empty() || !s.tissue.regions.empty() ||
                 !s.tissue.preset.empty();
-       }}};
+       }},
+      {{"motion.rigid_points"},
+       "motion.rigid_points",
+       "expressions move a face whose head stays where it is",
+       // drive.points = "all" leaves them out.
+       [](const Scene& s, DriveBy) { return !scene::of_weights(s) || s.drive.all_points; }}};
 }
 
 }  // namespace

@@ -27,6 +27,17 @@ std::string first_readings(const motion::Motion& m,
   return fmt::format("{}", fmt::join(named, "; "));
 }
 
+/// "FILE:LINE, point NAME at 0.467 s to 1.200 s", of the first ones, and how many more there are.
+std::string first_held(const motion::Motion& m, const std::vector<motion::HeldReadings>& held) {
+  std::vector<std::string> named;
+  for (const motion::HeldReadings& run : held)
+    if (named.size() < kNamedReadings)
+      named.push_back(fmt::format("{} to {:.3f} s", motion::place_of(m, run.point, run.first),
+                                  m.time_s[run.last]));
+  add_rest(named, held.size());
+  return fmt::format("{}", fmt::join(named, "; "));
+}
+
 /// The farthest that a point goes, m. The mandible opens by 40 to 60 mm, a corner of the mouth
 /// goes 10 to 20 mm in a smile and as much downwards with the jaw. Points whose part is not known
 /// have the bound of the mandible.
@@ -67,6 +78,13 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
   add("recording.jumps", mended.jumps,
       "a point jumps between two readings as no face does; kept as it is, so correct it or leave "
       "its cells empty");
+  if (!mended.held.empty())
+    notes.push_back(make_warning(
+        "recording.held_points",
+        fmt::format("a point stays at exactly one place while the points beside it move, as a "
+                    "marker does that was lost; kept as it is, so correct its readings or leave "
+                    "their cells empty: {}",
+                    first_held(mended.motion, mended.held))));
   return notes;
 }
 

@@ -13,6 +13,7 @@ namespace hyperex::session {
 /// * `recording.zeros`: those of (0, 0, 0), which were taken as missing,
 /// * `recording.lone_samples`: those of a slow recording that jump away and back alone,
 /// * `recording.jumps`: those to which a point moves as no face does, and which were kept.
+/// * `recording.held_points`: those of points that are held while others move, which were kept.
 /// Each names the first three, and says how many more there are.
 std::vector<Note> reading_warnings(const motion::MendedMotion& mended);
 

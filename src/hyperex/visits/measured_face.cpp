@@ -8,13 +8,14 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/metrics/excursion.hpp"
 #include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
-#include "hyperex/metrics/point_pairs.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
@@ -42,9 +43,11 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
                                       MeasuredFace& face) {
   motion::TriedPose tried;
   if (!visits.rigid_points.empty())
-    tried.steady = motion::stabilise(motion, {.rigid_points = visits.rigid_points});
+    tried.steady =
+        motion::stabilise(motion, {.rigid_points = motion::own_names(motion, visits.rigid_points)});
   else
-    tried = motion::try_stabilise(motion, still_points, "rigid_points of the visits");
+    tried = motion::try_stabilise(motion, motion::own_names(motion, still_points),
+                                  "rigid_points of the visits");
   face.head_known = tried.why_not.empty();
   if (!face.head_known) {
     face.remarks.push_back("head pose is not taken out and is in every figure: " +
@@ -62,10 +65,11 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
 /// The points of the head by which it is compared between visits.
 std::vector<std::string> head_points(const VisitsFile& visits,
                                      const std::vector<std::string>& still_points) {
-  if (!visits.rigid_points.empty()) return visits.rigid_points;
-  if (still_points.empty()) return motion::default_rigid_points();
+  const std::vector<std::string>& points =
+      visits.rigid_points.empty() ? still_points : visits.rigid_points;
+  if (points.empty()) return motion::default_rigid_points();
   std::vector<std::string> names;
-  for (const std::string& name : still_points) names.push_back(metrics::full_name(name));
+  for (const std::string& name : points) names.push_back(face::full_name(name));
   return names;
 }
 
@@ -112,7 +116,7 @@ io::Landmarks points_at(const motion::Motion& motion, std::size_t sample) {
   io::Landmarks out;
   for (std::size_t p = 0; p < motion.names.size(); ++p) {
     const Vec3 place = motion.positions[sample].row(Eigen::Index(p)).transpose();
-    if (place.allFinite()) out[metrics::full_name(motion.names[p])] = place;
+    if (place.allFinite()) out[face::full_name(motion.names[p])] = place;
   }
   // Visits may be recorded with different sets of names.
   const io::Landmarks named = out;

@@ -26,5 +26,12 @@ TEST(SamePlace, ThatIsNotGivenOrNotFiniteIsNone) {
   EXPECT_FALSE(find_place({{"cheilion_L", nowhere}}, "cheilion_L"));
 }
 
+TEST(SamePlace, HasOneName) {
+  for (const char* name : {"36", "p36", "ibug68_36", "exocanthion_R"})
+    EXPECT_EQ(place_name(name), "ibug68_36") << name;
+  for (const char* name : {"pogonion", "head_1", "360", "p", "", "ibug68_99"})
+    EXPECT_EQ(place_name(name), name);
+}
+
 }  // namespace
 }  // namespace hyperex::face

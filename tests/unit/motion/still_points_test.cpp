@@ -62,6 +62,25 @@ TEST(StillPoints, OfSeveralRecordingsKeepTheirDistancesInEach) {
               ElementsAre("top", "left", "right", "nose"));
 }
 
+TEST(StillPoints, OfSeveralRecordingsMayHaveOtherNamesOfOnePlace) {
+  Motion first = nodding_with_ear(0), other = first;
+  first.names = {"27", "ibug68_36", "exocanthion_L", "nose", "smile", "ibug68_57", "ear"};
+  other.names = {"ibug68_27", "p36", "45", "nose", "smile", "57", "ear"};
+  EXPECT_THAT(find_still_points(std::vector<const Motion*>{&first, &other}),
+              ElementsAre("27", "ibug68_36", "exocanthion_L", "nose", "ear"));
+  EXPECT_THAT(own_names(other, {"27", "ibug68_36", "exocanthion_L", "nose", "chin"}),
+              ElementsAre("ibug68_27", "p36", "45", "nose", "chin"));
+}
+
+TEST(StillPoints, OfOnePlaceCountOnceWhereOneRecordingHasItOnce) {
+  Motion twice = nodding_with_ear(0);  // its last point lies where its first one does
+  twice.names = {"ibug68_36", "left", "right", "nose", "smile", "ibug68_57", "exocanthion_R"};
+  Motion once = nodding();
+  once.names[0] = "36";
+  EXPECT_THAT(find_still_points(std::vector<const Motion*>{&twice, &once}),
+              ElementsAre("ibug68_36", "left", "right", "nose"));
+}
+
 TEST(StillPoints, AreProposedForAllWhereOneLacksTheUsualPoints) {
   const Motion without = nodding_with_ear(0);
   Motion with = without;

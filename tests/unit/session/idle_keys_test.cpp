@@ -30,7 +30,8 @@ struct IdleCase {
 };
 
 /// One for each of idle_rules(), in their order.
-std::vector<IdleCase> idle_cases(const std::string& file) {
+/// `weights`: a file of blend shapes.
+std::vector<IdleCase> idle_cases(const std::string& file, const std::string& weights) {
   const std::string displacement = "drive.by=\"displacement\"\n",
                     finite = "tissue.strain=\"finite\"\n";
   return {
@@ -56,7 +57,9 @@ std::vector<IdleCase> idle_cases(const std::string& file) {
        {{"scan.landmarks_unit", "cm"}}},
       {displacement, {{"motion.candide", file}}},
       {displacement, {{"tissue.interpolation", "linear"}}},
-      {displacement, {{"tissue.mirror", "true"}}}};
+      {displacement, {{"tissue.mirror", "true"}}},
+      {displacement + "motion.file=\nmotion.arkit=\"" + weights + "\"",
+       {{"motion.rigid_points", R"(["ibug68_27", "ibug68_36", "ibug68_45"])"}}}};
 }
 
 class IdleKeys : public testing::Test {
@@ -83,7 +86,9 @@ class IdleKeys : public testing::Test {
 };
 
 TEST_F(IdleKeys, EachChangesNothingAndIsWarnedOf) {
-  const auto cases = idle_cases((folder_ / "motion.csv").string());
+  const std::string weights =
+      folder_.write("weights.csv", "time_s,mouthSmileLeft\n0,0\n0.1,0.5\n0.2,1\n").string();
+  const auto cases = idle_cases((folder_ / "motion.csv").string(), weights);
   ASSERT_EQ(cases.size(), idle_rules().size());
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const IdleRule& rule = idle_rules()[i];
@@ -112,6 +117,7 @@ TEST_F(IdleKeys, AreNotThoseThatAct) {
            {"tissue.strain=finite", "tissue.law=mooney-rivlin", "tissue.mooney_c01=1"},
            {"contact.teeth=true"},
            {"scan.landmarks_unit=mm"},
+           {R"(motion.rigid_points=["ibug68_27", "ibug68_36", "ibug68_45"])"},
            {"region.measured=points", "region.measured_points=[\"ibug68_8\"]", "region.blend_mm=9"},
            {"tissue.preset=source_model_1", "tissue.interpolation=linear", "tissue.mirror=true"}})
     EXPECT_THAT(idle_keys_warnings(scene_of("", changes)), IsEmpty())

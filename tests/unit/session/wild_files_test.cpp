@@ -87,6 +87,19 @@ TEST_P(WildFiles, AreRefusedRepairedOrWarnedOf) {
   }
 }
 
+TEST(HeldPoints, AreNamedWithTheirLineAndTimes) {
+  const scene::SceneFolder folder;
+  write_good_inputs(folder / "");
+  write_opening(folder / "", 0, 41, [](motion::Motion& m) {
+    const int chin = m.index_of("ibug68_8");
+    for (std::size_t k = 16; k <= 30; ++k) m.positions[k].row(chin) = m.positions[15].row(chin);
+  });
+  const Inputs in = read_inputs(scene::read_scene(folder / "scene.toml"), Extent::quick);
+  EXPECT_THAT(in.notes,
+              Contains(AllOf(is_warning("recording.held_points"),
+                             says("motion.csv:17, point ibug68_8 at 0.500 s to 1.000 s"))));
+}
+
 /// One reading in the middle is off, in a recording of this rate.
 struct LoneReading {
   double rate_hz, off_mm;

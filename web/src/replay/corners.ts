@@ -209,12 +209,12 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
 /** The difference between the figures as they are shown, rounded. */
 export const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
 
-/** "8.1 mm apart": the figures do not show which side is the healthy one. */
+/** "a difference of 8.1 mm": the figures do not show which side is the healthy one. */
 export function differenceWords(corners: Corners): string {
   const { own, limit } = apartAgainstFloor(corners);
-  if (corners.undecided) return `${own} apart: undecided (below ${limit})`;
+  if (corners.undecided) return `a difference of ${own}: undecided (below ${limit})`;
   if (apartMm(corners) < sameMm) return 'no difference';
-  return corners.cannotTell ? `${own} apart: cannot tell (jitter not known)` : `${own} apart`;
+  return corners.cannotTell ? `a difference of ${own}: cannot tell (jitter not known)` : `a difference of ${own}`;
 }
 
 /** How far the sides are apart, and the floor of that, so that the two do not print alike. */

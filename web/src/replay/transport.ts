@@ -37,7 +37,7 @@ export function wireTransport(source: { readonly replay: Replay }, playback: Pla
   return () => {
     const most = mostDifferent(source.replay, shown);
     toMost.hidden = !most;
-    const hint = most ? `Where ${most.name} differs most from base: by ${mm(most.maxDifferenceMm)}` : '';
+    const hint = most ? `Where ${most.name} differs most from the unchanged face: by ${mm(most.maxDifferenceMm)}` : '';
     if (toMost.title !== hint) toMost.title = hint;
     const last = Math.max(source.replay.timeS.length - 1, 0);
     if (slider.max !== String(last)) slider.max = String(last);
@@ -73,7 +73,7 @@ export function transportKeys(source: { readonly replay: Replay }, playback: Pla
       shown: 'Home or End', does: 'first, last frame',
       when: ['Home', 'End'], act: ({ key }) => playback.seek(source.replay.timeS[key === 'Home' ? 0 : source.replay.timeS.length - 1]),
     },
-    { shown: 'd', does: 'where the variant shown differs most from base', when: ['d'], act: () => seekMost(source, playback, shown) },
+    { shown: 'd', does: 'where the variant shown differs most from the unchanged face', when: ['d'], act: () => seekMost(source, playback, shown) },
     { shown: 'p', does: 'where the driven points moved most', when: ['p'], act: () => playback.seek(source.replay.timeS[source.replay.peakFrame]) },
   ];
 }

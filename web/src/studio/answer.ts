@@ -52,7 +52,7 @@ export class Answer {
   private apartWords(own: Corners): (string | HTMLElement)[] {
     const { own: apart, limit } = apartAgainstFloor(own);
     if (own.undecided) return [words.sidesApart, ' ', element('b', apart), ' ', element('small', words.apartUndecided(limit), 'undecided')];
-    if (apartMm(own) < sameMm) return [words.sidesApart, ' ', element('b', words.apartNone)];
+    if (apartMm(own) < sameMm) return [element('b', words.apartNone)];
     if (own.cannotTell) return [words.sidesApart, ' ', element('b', apart), ' ', element('small', words.apartCannotTell, 'undecided')];
     const decided = own.floorMm > 0 ? [' ', element('small', words.apartDecided(limit))] : [];
     return [words.sidesApart, ' ', element('b', apart), ...decided];

@@ -363,7 +363,7 @@ export interface CtSliceEvent {
 export interface MotionEvent {
   /** as in the event face, without skin, texture, mirror, openings and eyeballs */
   replay: unknown;
-  /** rows of variants.csv as JSON: differences from base, mm */
+  /** rows of variants.csv as JSON: differences from the unchanged face, mm */
   table: unknown;
   /** as in the event face */
   activations: unknown;

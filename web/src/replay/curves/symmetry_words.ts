@@ -9,13 +9,13 @@ import type { Shown } from '../shown';
 /** If one side hardly moves, the ratio of the sides is meaningless. */
 const leastForRatioMm = 0.5;
 
-/** "0.5 mm apart, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
+/** "a difference of 0.5 mm, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
 function plainFigure(replay: Replay, face: number): string {
   const corners = cornersOf(replay, face);
   if (!corners) return '';
   const { leftMm, rightMm } = corners;
   const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
-  return `${mm(apartMm(corners))} apart${ratio}`;
+  return `a difference of ${mm(apartMm(corners))}${ratio}`;
 }
 
 /** Figures of the faces shown. Each face is named where the run has several. */
@@ -63,7 +63,7 @@ export function disagreement(replay: Replay, shown: Shown): string {
       name: faceWords(replay.faces, face), s: signed(largestS(replay, face)!.toFixed(2)), apart: mm(apartMm(cornersOf(replay, face)!)),
     }));
     return `By its largest S “${one.name}” is more symmetric than “${other.name}” (${one.s}, not ${other.s}), by the millimetres of the corners less so ` +
-      `(${one.apart} apart, not ${other.apart}): the two measure different things, S the stretches to eye, lid, nose and lip.`;
+      `(a difference of ${one.apart}, not ${other.apart}): the two measure different things, S the stretches to eye, lid, nose and lip.`;
   }
   return '';
 }

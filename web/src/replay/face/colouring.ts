@@ -77,7 +77,7 @@ function difference(replay: Replay): Colouring {
     const between = shown.length > 1 && shown.includes(0) && variants.length > 0;
     const greatest = niceCeiling(Math.max(0, ...variants.map((i) => faces[i].maxDifferenceMm)));
     const names = variants.map((i) => faceWords(faces, i)).join(' and ');
-    const title = between ? 'Distance between the faces' : 'Distance from base';
+    const title = between ? 'Distance between the faces' : 'Distance from the unchanged face';
     return {
       scale: { ramp: 'embers', title, unit: 'mm', least: 0, greatest, remark: names && `range of ${names} alone` },
       fill(shape, out, other) {

@@ -18,7 +18,7 @@ const columns: Column[] = [
   },
   {
     key: 'greatest_distance_mm', head: 'Greatest distance', unit: 'mm', digits: 2,
-    says: 'from base: how far apart the same point of the skin is in both at the same time, at most.',
+    says: 'from the unchanged face: how far the same point of the skin is from where it is there at the same time, at most.',
   },
   {
     key: 'rms_distance_at_peak_mm', head: 'Distance at peak', unit: 'mm, rms', digits: 3,
@@ -70,7 +70,7 @@ function linesOf({ driven_point, response_point, table }: Variants): (string | H
   const decided = table.some((row) => isNumber(row.added_xi_floor))
     ? 'All faces follow the very same motion, so its jitter does not count here. What a variant adds to ξL − ξR is undecided below its floor, which is what the mesh alone can make of it.'
     : 'All faces follow the very same motion. What the mesh alone adds to ξL − ξR is not known, so a small added difference is undecided.';
-  const first = element('p', 'Each variant against base.');
+  const first = element('p', 'Each variant against the unchanged face, base.');
   first.append(element('span', ' Press a name to see that face.', 'not-printed'));
   return [first, ...points, decided];
 }
