@@ -72,7 +72,7 @@ void draw_bars(render::Canvas& canvas, double y, const std::vector<metrics::Pair
 render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title) {
   const metrics::SymmetryCurve& curve = measures.curve;
   const auto pairs = farthest(measures.excursions);
-  const double bars = 700, end = bars + 27 * static_cast<double>(pairs.size()) + 24;
+  const double bars = 722, end = bars + 27 * static_cast<double>(pairs.size()) + 24;
   render::Canvas canvas(900, static_cast<int>(end) + 24);
   canvas.text(70, 42, title, {.size_px = 20, .bold = true});
   const render::Range time{curve.time_s.front(),
@@ -99,6 +99,9 @@ render::Image draw(const metrics::SymmetryMeasures& measures, const std::string&
   if (!floor.empty()) render::shade_under(canvas, lower, curve.time_s, floor);
   render::draw_curves(canvas, lower, curve.time_s, s);
   canvas.text(470, 648, "time (s)", {.size_px = 13, .align = render::Align::centre});
+  double below = 656;
+  for (const char* line : metrics::kWhatSCompares)
+    canvas.text(70, below += 16, line, {.size_px = 12, .colour = render::palette::faint_ink});
   if (!pairs.empty()) draw_bars(canvas, bars, pairs);
   canvas.text(70, end + 10, "No medical device: these figures diagnose nothing.",
               {.size_px = 12, .colour = render::palette::faint_ink});

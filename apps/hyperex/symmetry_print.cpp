@@ -91,6 +91,7 @@ void print_curve(const metrics::SymmetryCurve& curve) {
     std::cout << fmt::format("one in {} of {} samples; --out FILE.csv writes all\n", every, count);
   std::cout << fmt::format("floor: |xi_L - xi_R| = {:.3g}, S = {:.3f}\n", curve.floor,
                            std::log(curve.floor));
+  std::cout << fmt::format("{}\n", fmt::join(metrics::kWhatSCompares, " "));
 }
 
 void print_excursions(const metrics::Excursions& excursions) {

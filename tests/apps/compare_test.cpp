@@ -287,8 +287,9 @@ TEST_F(Program, SymmetryPrintsWhatIsReadFirst) {
   ASSERT_EQ(found.status, 0) << found.err;
   std::size_t before = 0;
   for (const char* words :
-       {"\npoint ", "\ncorner of the mouth", "eyelid", "\nouter end of the brow",
-        "\noutline of the jaw 1", "\nhead's pose: uncertain by up to "}) {
+       {"\nS compares how much ", "does not say which face moves more evenly in mm", "\npoint ",
+        "\ncorner of the mouth", "eyelid", "\nouter end of the brow", "\noutline of the jaw 1",
+        "\nhead's pose: uncertain by up to "}) {
     const std::size_t at = found.out.find(words);
     ASSERT_NE(at, std::string::npos) << words << '\n' << found.out;
     EXPECT_GT(at, before) << words << '\n' << found.out;

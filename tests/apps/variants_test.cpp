@@ -62,7 +62,8 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
          "tissue = { region = [{ name = \"cheek_R\", young_factor = 10 }] }\n"
          "[[variant]]\nname = \"left\"\n"
          "tissue = { region = [{ name = \"cheek_L\", young_factor = 10 }] }\n"
-         "[[variant]]\nname = \"weak\"\nmuscles = { gain = { side_R = 0.5 } }\n";
+         "[[variant]]\nname = \"weak\"\nmuscles = { gain = { side_R = 0.5 } }\n"
+         "[[variant]]\npreset = \"palsy_complete_R\"\n";
   const Outcome outcome = call("run cheeks.toml --out out");
   ASSERT_EQ(outcome.status, 0) << outcome.err;
   // A picture of the muscles is drawn where they pull differently.
@@ -71,7 +72,12 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   EXPECT_TRUE(std::filesystem::exists(in("out/variants/weak/muscles.png")));
   const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
   const auto& table = summary["variants"]["table"];
-  ASSERT_EQ(table.size(), 4u);
+  ASSERT_EQ(table.size(), 5u);
+  // What still moves the side is said where no muscle of it pulls.
+  EXPECT_EQ(table[3]["unpulled_sides"], nlohmann::json::array());
+  EXPECT_EQ(table[4]["unpulled_sides"], nlohmann::json::array({"R"}));
+  EXPECT_TRUE(table[4]["commissure_R_with_jaw_mm"].is_number());
+  EXPECT_THAT(outcome.out, testing::HasSubstr("    no muscle pulls on the right: "));
   const auto change_mm = [&](int row, const std::string& column) {
     return std::abs(table[row][column].get<double>() - table[0][column].get<double>());
   };

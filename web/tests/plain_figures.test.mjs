@@ -124,6 +124,23 @@ test('beside S(t) stand the millimetres, and where both order two faces differen
   await agreed.close();
 });
 
+test('S(t) says what it compares and that it is no figure in mm', async () => {
+  const { page, close } = await openPage(browser, fixture('variants.html'));
+  const card = page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: 'Symmetry of motion, S(t)' }) });
+  assert.match(await card.locator('p').first().textContent(), /S compares how much the distances .+ does not say which face moves more evenly in mm/);
+  await close();
+});
+
+test('the curve of the corners says that it is not filtered, where the figures above it are', async () => {
+  const { page, close } = await changedPage((data) => {
+    data.symmetry.jitter_mm = 0.2;
+    data.summary.symmetry = { excursions: pair(6.7, 6.2), lowpass_hz: 6 };
+  });
+  assert.match((await page.locator('.corners .u-series button').allTextContents()).join(', '), /right corner, unfiltered, .*left corner, unfiltered/);
+  assert.match(await page.locator('.corners').textContent(), /figures above are of paths without what is faster than 6 Hz; the curve is unfiltered/);
+  await close();
+});
+
 test('curves and columns are called after their face first, and then after the side', async () => {
   const { page, close } = await openPage(browser, fixture('variants.html'));
   await page.keyboard.press('2');

@@ -106,9 +106,10 @@ async function dragged(change) {
   const questions = await page.locator('.answers dt').allTextContents();
   const [changed, apart] = await page.locator('.answers dd').allTextContents();
   const below = await page.locator('.corners .floor').textContent();
+  const all = await page.locator('body').textContent();
   await close();
   await rm(dirname(file), { recursive: true });
-  return { headline, questions, change: changed, apart, below, line: line.split(': ').slice(1).join(': ') };
+  return { headline, questions, change: changed, apart, below, all, line: line.split(': ').slice(1).join(': ') };
 }
 
 test('a weak corner that goes farther is dragged; the healthy one is not called less', async () => {
@@ -124,6 +125,10 @@ test('a change has no band and is not decided where the jitter is not known', as
   assert.equal(change, 'right is dragged 2.2 mm farther than in base: cannot tell, as the jitter of the recording is not known');
   assert.equal(line, 'right corner 8.9 mm, is dragged 2.2 mm farther than in base (cannot tell, as the jitter of the recording is not known)');
   assert.match((await dragged({ right: 7.1, more: { ...more, commissure_R_decided: 0 } })).change, /: undecided$/);
+  // The table below says the same of the jitter.
+  const { all } = await dragged({ right: 8.91, more });
+  assert.match(all, /A changed face scales it: .+ Here the jitter is not known, and the program cannot tell whether it makes such a change\./);
+  assert.doesNotMatch(all, /jitter does not count/);
 });
 
 test('a weak corner moves less, one in stiff tissue follows less', async () => {
@@ -131,9 +136,21 @@ test('a weak corner moves less, one in stiff tissue follows less', async () => {
   assert.equal((await dragged({ right: 4.1, weaker: [] })).change, 'right follows 2.6 mm less than in base (± 0.7 mm)');
 });
 
-test('what is compared lies along the way of base', async () => {
-  assert.equal((await dragged({ right: 7.0, along: 3.5 })).change, 'right moves 3.2 mm less than in base, along its way there (± 0.7 mm)');
-  assert.equal((await dragged({ right: 5.9, along: -4.2 })).change, 'right goes 4.2 mm the other way (± 0.7 mm)');
+test('the change is that of the distance, with its own band; what it hides is a second figure with a name', async () => {
+  const { change, line, below } = await dragged({ right: 4.1, along: 1.5 });
+  assert.equal(change, 'right moves 2.6 mm less than in base (± 0.7 mm); in the unchanged direction 5.2 mm less');
+  assert.equal(line, 'right corner 4.1 mm, moves 2.6 mm less than in base (± 0.7 mm); in the unchanged direction 5.2 mm less');
+  assert.match(below, /The unchanged direction is where the corner goes in base; .+ That figure has no ±\./);
+  assert.equal((await dragged({ right: 7.0, along: 3.5 })).change,
+    'right is dragged 0.3 mm farther than in base: undecided (below 0.7 mm); in the unchanged direction 3.2 mm less');
+  assert.equal((await dragged({ right: 5.9, along: -4.2 })).change, 'right moves 0.8 mm less than in base (± 0.7 mm); 4.2 mm against the unchanged direction');
+  assert.equal((await dragged({ right: 6.75, along: 2.7 })).change, 'right goes as far as in base; in the unchanged direction 4.0 mm less');
+  assert.doesNotMatch((await dragged({ right: 4.1 })).below, /direction/);
+});
+
+test('what still moves a side of which no muscle pulls', async () => {
+  const { line } = await dragged({ right: 4.1, more: { unpulled_sides: ['R'], commissure_R_with_jaw_mm: 5.04 } });
+  assert.match(line, / No muscle pulls on the right: what motion is left there comes from the jaw \(fixed to it, the corner would go 5\.0 mm\), the other side, and forces that no muscle explains\.$/);
 });
 
 test('a change within its band is undecided', async () => {

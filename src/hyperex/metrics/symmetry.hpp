@@ -14,6 +14,13 @@ namespace hyperex::metrics {
 /// the right.
 using Stretches = std::array<double, 8>;
 
+/// What S(t) compares and what it does not say, in two lines of a picture: two faces may be ordered
+/// otherwise by S than by how far their sides move.
+inline constexpr std::array<const char*, 2> kWhatSCompares = {
+    "S compares how much the distances from each corner of the mouth to eye, lid, nose and lip "
+    "stretch;",
+    "it does not say which face moves more evenly in mm: the excursions of both sides do."};
+
 /// Symmetry of a motion after Trotman et al. With r_k,side(t) the distances from cheilion to
 /// exocanthion, palpebrale_inferius, alare and crista_philtri_inferior of one side,
 ///   xi_side(t) = sum_k (r_k,side(t) / r_k,side(t0) - 1),  S(t) = ln |xi_L(t) - xi_R(t)|.

@@ -6,9 +6,14 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/core/held_against.hpp"
+
 namespace hyperex::run {
 namespace {
 using Json = nlohmann::ordered_json;
+
+/// A change below half of the last digit printed counts as none.
+constexpr double kSame_mm = 0.05;
 
 double corner_number(const Json& json, const std::string& key, double otherwise) {
   return json.contains(key) && json[key].is_number() ? json[key].get<double>() : otherwise;
@@ -19,17 +24,16 @@ double rounded_mm(double mm) {
   return std::round(10 * mm) / 10;
 }
 
-/// Whether the corners' difference counts, and what most of the floor comes from.
-std::string floor_clause(const Json& corners, double apart_mm) {
+/// What the corners' difference is, whether it counts, and what most of the floor comes from.
+std::string difference_words(const Json& corners, double shown_mm, double exact_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
   const std::string cannot_tell = "the recording cannot tell, as its jitter is not known";
-  if (floor_mm <= 0) return unknown ? ": " + cannot_tell : "";
+  if (floor_mm <= 0) return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
+  const HeldAgainst apart = held_against(shown_mm, exact_mm, floor_mm);
   return fmt::format(
-      ": {} the floor of {} mm ({}){}",
-      !unknown && corners.value("undecided", false) ? "undecided, below" : "more than",
-      floor_mm < 0.095 || std::abs(apart_mm - floor_mm) < 0.1 ? fmt::format("{:.2f}", floor_mm)
-                                                              : fmt::format("{:.1f}", floor_mm),
+      "{} mm: {} the floor of {} mm ({}){}", apart.own,
+      !unknown && corners.value("undecided", false) ? "undecided, below" : "more than", apart.limit,
       corners.value("largest_part", "mesh"), unknown ? ", but " + cannot_tell : "");
 }
 
@@ -38,15 +42,15 @@ struct CornerChange {
   double from_mm, to_mm, band_mm;
   double decided;     ///< whether the change from rest exceeds its band, 1 or 0
   bool jitter_known;  ///< else the band is not
-  double along_mm;    ///< along the way of base
+  double along_mm;    ///< in the unchanged direction
   double far_mm, far_s;
   bool weaker;  ///< some muscle of that side pulls less than in base
 };
 
-/// "is dragged 2.1 mm farther": `mm` more, or less, than base.
-std::string moved_words(double mm, bool weaker) {
-  if (mm < 0) return fmt::format("{} {:.1f} mm less", weaker ? "moves" : "follows", -mm);
-  return fmt::format("{} {:.1f} mm farther", weaker ? "is dragged" : "moves", mm);
+/// "is dragged 2.1 mm farther": `mm` more, or less, than base; `size` is its size in words.
+std::string moved_words(double mm, const std::string& size, bool weaker) {
+  if (mm < 0) return fmt::format("{} {} mm less", weaker ? "moves" : "follows", size);
+  return fmt::format("{} {} mm farther", weaker ? "is dragged" : "moves", size);
 }
 
 /// Where the greatest excursions differ by much less than the paths do: ", but up to 3.7 mm from
@@ -58,25 +62,56 @@ std::string path_clause(const CornerChange& c, double by_mm) {
                      c.far_mm, c.far_s);
 }
 
+/// Where the corner turns aside, its distance from rest hides how much less it goes where it went:
+/// ", in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less".
+std::string direction_clause(const CornerChange& c) {
+  if (std::isnan(c.along_mm)) return "";
+  const bool same_way = std::abs(c.to_mm - c.along_mm) <= std::max(0.25, 0.1 * c.to_mm);
+  if (same_way) return "";
+  const double from = rounded_mm(c.from_mm), along = rounded_mm(c.along_mm);
+  if (along < 0) return fmt::format(", {:.1f} mm against the unchanged direction", -along);
+  const double by = along - from;
+  const std::string how = std::abs(by) < kSame_mm
+                              ? "unchanged"
+                              : fmt::format("{:.1f} mm {}", std::abs(by), by < 0 ? "less" : "more");
+  return fmt::format(", in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along, how);
+}
+
+/// The change of the distance from rest with its own band, then what that distance hides.
 std::string change_words(const CornerChange& c) {
-  constexpr double same_mm = 0.05;
   const double from = rounded_mm(c.from_mm), to = rounded_mm(c.to_mm);
-  const double along = std::isnan(c.along_mm) ? c.to_mm : c.along_mm;
-  // Along base's way as far as from rest: the figures from rest say it all.
-  const bool same_way = std::abs(c.to_mm - along) <= std::max(0.25, 0.1 * c.to_mm);
-  const double by = same_way ? to - from : rounded_mm(along) - from;
-  if (same_way && (std::abs(by) < same_mm || std::abs(c.to_mm - c.from_mm) < same_mm))
-    return fmt::format("{:.1f} mm, unchanged", from) + path_clause(c, 0);
-  const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to);
-  std::string band = std::isnan(c.band_mm) ? "" : fmt::format(" (+- {:.1f})", c.band_mm);
-  if (std::abs(same_way ? c.to_mm - c.from_mm : by) < c.band_mm || (same_way && c.decided == 0))
-    return way + "undecided" + band + path_clause(c, by);
-  if (!c.jitter_known) band = " (cannot tell: the recording's jitter is not known)";
-  if (!same_way && along < 0)
-    return way + fmt::format("goes {:.1f} mm the other way", -rounded_mm(along)) + band +
-           path_clause(c, by);
-  return way + moved_words(by, c.weaker) + (same_way ? "" : " along its way without the change") +
-         band + path_clause(c, by);
+  const double by = to - from, exact = c.to_mm - c.from_mm;
+  const std::string aside = direction_clause(c),
+                    hidden = aside.empty() ? path_clause(c, by) : aside;
+  if (std::abs(by) < kSame_mm || std::abs(exact) < kSame_mm)
+    return fmt::format("{:.1f} mm, {}", from, aside.empty() ? "unchanged" : "as far as before") +
+           hidden;
+  const bool known = !std::isnan(c.band_mm);
+  const HeldAgainst held = held_against(by, exact, known ? c.band_mm : 0);
+  const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to),
+                    band = known ? fmt::format(" (+- {})", held.limit) : "";
+  if (std::abs(exact) < c.band_mm || c.decided == 0)
+    return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + band +
+           hidden;
+  const std::string cannot_tell =
+      c.jitter_known ? "" : " (cannot tell: the recording's jitter is not known)";
+  return way + moved_words(by, held.own, c.weaker) + band + cannot_tell + hidden;
+}
+
+/// Why a corner on a side of which no muscle pulls still moves, a line for each such side.
+std::string unpulled_lines(const Json& variant) {
+  std::string lines;
+  for (const Json& side : variant.value("unpulled_sides", Json::array())) {
+    const auto letter = side.get<std::string>();
+    const double jaw_mm = corner_number(variant, "commissure_" + letter + "_with_jaw_mm", 0);
+    lines += fmt::format(
+        "    no muscle pulls on the {}: what motion is left there comes from the jaw{}, the other "
+        "side, and forces that no muscle explains\n",
+        letter == "R" ? "right" : "left",
+        jaw_mm < kSame_mm ? ""
+                          : fmt::format(" (fixed to it, the corner would go {:.1f} mm)", jaw_mm));
+  }
+  return lines;
 }
 
 std::string side_words(const Json& base, const Json& variant, const std::string& side) {
@@ -106,26 +141,31 @@ std::string corners_line(const Json& summary) {
   const auto& corners = symmetry["commissure"];
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
-  const std::string line = fmt::format(
-      "corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {:.1f} mm",
-      rounded_mm(right), rounded_mm(left), std::abs(rounded_mm(left) - rounded_mm(right)));
-  return line + floor_clause(corners, std::abs(left - right)) + "\n";
+  return fmt::format("corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {}\n",
+                     rounded_mm(right), rounded_mm(left),
+                     difference_words(corners, std::abs(rounded_mm(left) - rounded_mm(right)),
+                                      std::abs(left - right)));
 }
 
 std::string variant_lines(const Json& summary) {
   std::string lines;
   if (!summary.contains("variants")) return lines;
   const auto& table = summary["variants"]["table"];
-  for (std::size_t i = 1; i < table.size(); ++i)
+  for (std::size_t i = 1; i < table.size(); ++i) {
     lines += fmt::format("  {}: corner of the mouth right {}; left {}\n",
                          table[i]["name"].get<std::string>(), side_words(table[0], table[i], "R"),
                          side_words(table[0], table[i], "L"));
-  if (!lines.empty())
-    lines +=
-        "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: "
-        "what one other mesh and 95 % of the recording's jitter could make; --error-budget states "
-        "all that could)\n";
-  return lines;
+    lines += unpulled_lines(table[i]);
+  }
+  if (lines.empty()) return lines;
+  const bool aside = lines.find("unchanged direction") != std::string::npos;
+  return lines +
+         "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: "
+         "what one other mesh and 95 % of the recording's jitter could make of the change of that "
+         "distance; --error-budget states all that could)\n" +
+         (aside ? "  (the unchanged direction: where the corner goes without the change; motion "
+                  "aside of it counts in the distance, not in it; it has no +-)\n"
+                : "");
 }
 
 }  // namespace hyperex::run

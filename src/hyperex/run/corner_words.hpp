@@ -15,8 +15,10 @@ std::string corners_line(const nlohmann::ordered_json& summary);
 
 /// The effect of each variant on the corners of the mouth, one line per variant: "  weak right:
 /// corner of the mouth right 9.6 to 6.2 mm, moves 3.4 mm less (+- 0.3); left 10.1 mm, unchanged".
-/// The distances compared are components along the displacement in base. A corner that moves
-/// equally far in another direction is therefore not reported as moving equally far.
+/// Compared are greatest distances from rest, as in variants_excursions.csv, with their band. A
+/// corner that turns aside has a second clause with its component in the unchanged direction, that
+/// of its displacement in base: ", in the unchanged direction 9.6 to 4.1 mm, 5.5 mm less". A line
+/// of its own says why a corner still moves where a variant lets no muscle of its side pull.
 std::string variant_lines(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

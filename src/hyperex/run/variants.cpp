@@ -11,6 +11,7 @@
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_tables.hpp"
+#include "hyperex/metrics/with_jaw.hpp"
 #include "hyperex/run/surgery.hpp"
 #include "hyperex/run/variants_picture.hpp"
 #include "hyperex/scene/file_names.hpp"
@@ -33,23 +34,50 @@ void write_tables(const Results& base, const std::vector<VariantRun>& runs,
                                         base.symmetry.excursions, excursions);
 }
 
-/// The subject's own sides on which a variant lets some muscle pull less than base does, "L" and
-/// "R": a corner there that goes farther is dragged.
-Json weaker_sides(const Results& base, const VariantRun& run) {
-  const std::vector<std::string>& names = base.simulation.performance.muscles.names;
-  const auto pull = [&](const scene::Scene& scene) -> Eigen::VectorXd {
+/// The factor of each muscle's pull in base and in a variant.
+struct Pulls {
+  std::vector<std::string> names;
+  Eigen::VectorXd before, now;
+
+  Pulls(const Results& base, const VariantRun& run)
+      : names(base.simulation.performance.muscles.names),
+        before(of(base.scene, base)),
+        now(of(run.scene, base)) {}
+
+  Eigen::VectorXd of(const scene::Scene& scene, const Results& base) const {
     return scene.drive.gain *
            simulate::muscle_gains(names, scene.muscles.gains, base.scene.muscles.table());
-  };
-  const Eigen::VectorXd before = pull(base.scene), now = pull(run.scene);
+  }
+  bool on_side(std::size_t muscle, const char* side) const {
+    return names[muscle].ends_with(std::string("_") + side);
+  }
+};
+
+/// The subject's own sides on which a variant lets some muscle pull less than base does, "L" and
+/// "R": a corner there that goes farther is dragged.
+Json weaker_sides(const Pulls& pulls) {
   Json sides = Json::array();
   for (const char* side : {"R", "L"})
-    for (std::size_t m = 0; m < names.size(); ++m)
-      if (names[m].ends_with(std::string("_") + side) &&
-          now[Eigen::Index(m)] < before[Eigen::Index(m)]) {
+    for (std::size_t m = 0; m < pulls.names.size(); ++m)
+      if (pulls.on_side(m, side) && pulls.now[Eigen::Index(m)] < pulls.before[Eigen::Index(m)]) {
         sides.push_back(side);
         break;
       }
+  return sides;
+}
+
+/// The sides on which no muscle pulls in a variant, although some do in base.
+Json unpulled_sides(const Pulls& pulls) {
+  Json sides = Json::array();
+  for (const char* side : {"R", "L"}) {
+    double before = 0, now = 0;
+    for (std::size_t m = 0; m < pulls.names.size(); ++m)
+      if (pulls.on_side(m, side)) {
+        before += pulls.before[Eigen::Index(m)];
+        now += pulls.now[Eigen::Index(m)];
+      }
+    if (before > 0 && now == 0) sides.push_back(side);
+  }
   return sides;
 }
 
@@ -75,13 +103,26 @@ Compared compared_with(const Results& base, const std::vector<VariantRun>& runs)
   return out;
 }
 
+/// Adds how far the corners of the mouth would go if they were fixed to the jaw.
+void add_jaw_part(const VariantRun& run, Json& row) {
+  const simulate::Performance& p = run.simulation.performance;
+  const metrics::Commissure& corners = run.symmetry.excursions.commissure;
+  row["commissure_R_with_jaw_mm"] =
+      metrics::with_jaw_mm(p.jaw_now_from_rest, p.landmarks, corners.right);
+  row["commissure_L_with_jaw_mm"] =
+      metrics::with_jaw_mm(p.jaw_now_from_rest, p.landmarks, corners.left);
+}
+
 Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Compared& compared) {
   Json table = Json::array({metrics::json_of(compared.own)});
   for (std::size_t i = 0; i < runs.size(); ++i) {
     Json one = metrics::json_of(compared.variants[i]);
     one["folder"] = "variants/" + runs[i].folder;
     one["changes"] = scene::echoed_changes(base.scene, base.scene.variants[i].changes);
-    one["weaker_sides"] = weaker_sides(base, runs[i]);
+    const Pulls pulls(base, runs[i]);
+    one["weaker_sides"] = weaker_sides(pulls);
+    one["unpulled_sides"] = unpulled_sides(pulls);
+    add_jaw_part(runs[i], one);
     one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");

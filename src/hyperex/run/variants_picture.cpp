@@ -148,6 +148,22 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   render::write_png(file, render::contact_sheet(sheet));
 }
 
+namespace {
+
+/// The title, the legend, and what S compares; returns the height down to which they reach.
+double draw_symmetry_heading(render::Canvas& canvas, const std::string& title,
+                             const std::vector<render::PlotCurve>& curves) {
+  canvas.text(70, 42, title + ": symmetry of motion", {.size_px = 20, .bold = true});
+  double y = 72 + draw_legend(canvas, 70, 870, 72, curves);
+  for (const char* line : metrics::kWhatSCompares) {
+    canvas.text(70, y, line, {.size_px = 13});
+    y += 18;
+  }
+  return y;
+}
+
+}  // namespace
+
 void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& runs,
                            const std::filesystem::path& file) {
   const metrics::SymmetryCurve& own = base.symmetry.curve;
@@ -169,10 +185,9 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
     s_curves.push_back({s[i], render::face_colour(i), names[i]});
     difference_curves.push_back({difference[i], render::face_colour(i), ""});
   }
-  render::Canvas canvas(900, 700 + 20 * int(faces.size() / 3));
-  const std::string title = base.scene.title.empty() ? "Variants" : base.scene.title;
-  canvas.text(70, 42, title + ": symmetry of motion", {.size_px = 20, .bold = true});
-  double y = 72 + draw_legend(canvas, 70, 870, 72, s_curves);
+  render::Canvas canvas(900, 740 + 20 * int(faces.size() / 3));
+  double y = draw_symmetry_heading(canvas, base.scene.title.empty() ? "Variants" : base.scene.title,
+                                   s_curves);
   const render::Range time{own.time_s.front(), own.time_s.back()};
   for (auto& curve : s_curves) curve.name.clear();
   std::vector<double> floor;

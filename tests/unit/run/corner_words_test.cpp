@@ -7,6 +7,7 @@
 namespace hyperex::run {
 namespace {
 using Json = nlohmann::ordered_json;
+using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
@@ -50,14 +51,49 @@ TEST(CornerWords, AWeakCornerMovesLessAndOneInStiffTissueFollowsLess) {
               HasSubstr("moves 0.8 mm farther"));
 }
 
-// The corner is as far from rest as in base, but in another place.
-TEST(CornerWords, ComparesAlongTheWayThatTheCornerGoesInBase) {
+// The change is that of the distance from rest, as variants_excursions.csv has it, with its own
+// band. What it hides where the corner turns aside is a second figure with a name.
+TEST(CornerWords, ACornerThatTurnsAsideHasASecondFigureInTheUnchangedDirection) {
   EXPECT_THAT(
-      variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
-      HasSubstr(
-          "right 6.0 to 6.4 mm, moves 2.1 mm less along its way without the change (+- 0.3)"));
+      variant_lines(summary_of({10.12, 6.68, 4.24, 0.69}, same, {"R"})),
+      AllOf(HasSubstr("right 10.1 to 6.7 mm, moves 3.4 mm less (+- 0.7), in the unchanged "
+                      "direction 10.1 to 4.2 mm, 5.9 mm less; left"),
+            HasSubstr("(the unchanged direction: where the corner goes without the change;")));
+  EXPECT_THAT(variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
+              HasSubstr("right 6.0 to 6.4 mm, is dragged 0.4 mm farther (+- 0.3), in the unchanged "
+                        "direction 6.0 to 3.9 mm, 2.1 mm less"));
   EXPECT_THAT(variant_lines(summary_of({6.0, 5.9, -5.2}, same, {"R"})),
-              HasSubstr("goes 5.2 mm the other way"));
+              HasSubstr("undecided: 0.1 mm less (+- 0.3), 5.2 mm against the unchanged direction"));
+  EXPECT_THAT(variant_lines(summary_of({6.0, 6.02, 3.9}, same, {"R"})),
+              HasSubstr("right 6.0 mm, as far as before, in the unchanged direction 6.0 to 3.9 mm, "
+                        "2.1 mm less"));
+  EXPECT_THAT(variant_lines(summary_of({9.6, 6.2, 6.15}, same, {"R"})),
+              Not(HasSubstr("unchanged direction")));
+}
+
+TEST(CornerWords, SaysOneSecondFigureAtMost) {
+  Json summary = summary_of({9.72, 7.53, 6.72, 0.96}, same, {"R"});
+  Json& changed = summary["variants"]["table"][1];
+  changed["commissure_R_from_base_mm"] = 4.6;
+  changed["commissure_R_from_base_s"] = 1.2;
+  EXPECT_THAT(variant_lines(summary),
+              AllOf(HasSubstr("right 9.7 to 7.5 mm, moves 2.2 mm less (+- 1.0), in the unchanged "
+                              "direction 9.7 to 6.7 mm, 3.0 mm less; left"),
+                    Not(HasSubstr("from its place"))));
+}
+
+TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
+  Json summary = summary_of({10.12, 6.68, 6.6, 0.69}, same, {"R"});
+  EXPECT_THAT(variant_lines(summary), Not(HasSubstr("no muscle pulls")));
+  Json& changed = summary["variants"]["table"][1];
+  changed["unpulled_sides"] = Json::array({"R"});
+  changed["commissure_R_with_jaw_mm"] = 5.04;
+  EXPECT_THAT(variant_lines(summary),
+              HasSubstr("\n    no muscle pulls on the right: what motion is left there comes from "
+                        "the jaw (fixed to it, the corner would go 5.0 mm), the other side, and "
+                        "forces that no muscle explains\n"));
+  changed["commissure_R_with_jaw_mm"] = nullptr;
+  EXPECT_THAT(variant_lines(summary), HasSubstr("comes from the jaw, the other side, and"));
 }
 
 TEST(CornerWords, AChangeIsNotDecidedWhereTheJitterIsNotKnown) {
@@ -70,7 +106,7 @@ TEST(CornerWords, AChangeIsNotDecidedWhereTheJitterIsNotKnown) {
   const std::string lines = variant_lines(summary);
   EXPECT_THAT(lines, HasSubstr("moves 3.4 mm less (cannot tell: the recording's jitter is not "
                                "known)"));
-  EXPECT_THAT(lines, HasSubstr("left 8.3 to 8.0 mm, undecided"));
+  EXPECT_THAT(lines, HasSubstr("left 8.3 to 8.0 mm, undecided: 0.3 mm less"));
 }
 
 TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
@@ -79,7 +115,7 @@ TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
   changed["commissure_L_from_base_mm"] = 0.52;
   changed["commissure_L_from_base_s"] = 1.2;
   EXPECT_THAT(variant_lines(summary),
-              HasSubstr("left 10.0 to 10.1 mm, moves 0.1 mm farther (+- 0.1), but up to 0.5 mm "
+              HasSubstr("left 10.0 to 10.1 mm, moves 0.12 mm farther (+- 0.05), but up to 0.5 mm "
                         "from its place without the change, at 1.20 s\n"));
 }
 
@@ -103,6 +139,17 @@ TEST(CornerWords, NamesTheLargestPartOfTheFloor) {
   EXPECT_THAT(corners_line(summary), HasSubstr("undecided, below the floor of 1.3 mm (head pose)"));
 }
 
+// 0.4 and 0.4 mm: with one decimal the difference would not be more than the floor.
+TEST(CornerWords, ADifferenceAndItsFloorHaveAsManyDecimalsAsTellThemApart) {
+  Json summary = summary_of({9.655, 6.0, 6.0}, {10.124, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["floor_mm"] = 0.4092;
+  EXPECT_THAT(
+      corners_line(summary),
+      HasSubstr("right 9.7 mm, left 10.1 mm, a difference of 0.47 mm: more than the floor of "
+                "0.41 mm (mesh)"));
+}
+
 TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
   Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
   Json& corners = summary["symmetry"]["commissure"];
@@ -118,7 +165,7 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
 
 TEST(CornerWords, AChangeWithinItsBandIsUndecided) {
   EXPECT_THAT(variant_lines(summary_of({6.7, 7.0, 7.0, 0.5}, same, {"R"})),
-              HasSubstr("right 6.7 to 7.0 mm, undecided (+- 0.5)"));
+              HasSubstr("right 6.7 to 7.0 mm, undecided: 0.3 mm more (+- 0.5)"));
 }
 
 }  // namespace

@@ -60,12 +60,13 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
 export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`;
 
 /** Decimals with which two lengths do not print alike, so that "0.1 mm, below 0.1 mm" is not written: one, where that
- *  will do. `aMm` is as it is shown with one decimal, `exactMm` is not rounded. */
+ *  will do. `aMm` is as it is shown with one decimal, `exactMm` is not rounded. The terminal follows the same rule
+ *  (core/held_against.hpp). */
 function digitsApart(aMm: number, exactMm: number, bMm: number): number {
   const less = Math.abs(exactMm) < bMm;
   const agrees = (digits: number) => {
     const [a, b] = [Math.abs(digits === 1 ? aMm : exactMm).toFixed(digits), bMm.toFixed(digits)].map(Number);
-    return less ? a < b : a > b;
+    return (less ? a < b : a > b) && (b > 0 || bMm === 0);
   };
   return [1, 2, 3].find(agrees) ?? 3;
 }
@@ -103,13 +104,13 @@ export interface CornerChange {
   /** Greatest distances from rest in base and in the variant, as they are shown. */
   fromMm: number;
   toMm: number;
-  /** How much farther it moves than in base, along its path in base. */
+  /** How much farther from rest it goes than in base: the change that `bandMm` belongs to. */
   byMm: number;
-  /** The same, not rounded where the corner goes the same way: what `undecided` compares with the band. */
+  /** The same, not rounded: what `undecided` compares with the band. */
   exactMm: number;
-  /** How far it moves along that path, signed. */
+  /** How far it moves in the unchanged direction, that of its displacement in base, signed. It has no band. */
   alongMm: number;
-  /** Its distance along base's path is close to that from rest, so that the figures above are complete. */
+  /** It moves in that direction about as far as from rest, so that the figures above are complete. */
   sameWay: boolean;
   /** Some muscle of that side pulls less than in base. */
   weaker: boolean;
@@ -119,7 +120,7 @@ export interface CornerChange {
   cannotTell: boolean;
 }
 
-/** A distance from rest has no direction, and so the displacement along base's own path is compared
+/** A distance from rest has no direction, and so the part in the unchanged direction is a second figure
  *  (metrics/variant_comparison.hpp, along_base_mm). Null where the corners are not known. */
 export function cornerChange(replay: Replay, face: number, side: Side): CornerChange | null {
   const [base, own] = [cornersOf(replay, 0), cornersOf(replay, face)];
@@ -130,14 +131,13 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const alongMm = isNumber(measured) ? measured : to;
   const sameWay = Math.abs(to - alongMm) <= Math.max(0.25, 0.1 * to);
   const [fromMm, toMm] = [roundedMm(from), roundedMm(to)];
-  const unchanged = sameWay && Math.abs(to - from) < sameMm;
-  const byMm = unchanged ? 0 : roundedMm((sameWay ? toMm : roundedMm(alongMm)) - fromMm);
+  const unchanged = Math.abs(to - from) < sameMm;
+  const byMm = unchanged ? 0 : roundedMm(toMm - fromMm);
   const bandMm = changeBandMm(replay, face, side);
   const weak = row?.weaker_sides;
-  const undecided = bandMm === null ? sameWay && row?.[`commissure_${letterOf[side]}_decided`] === 0
-    : Math.abs(sameWay ? to - from : byMm) < bandMm;
+  const undecided = bandMm === null ? row?.[`commissure_${letterOf[side]}_decided`] === 0 : Math.abs(to - from) < bandMm;
   return {
-    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: sameWay ? to - from : byMm, alongMm: roundedMm(alongMm), sameWay, bandMm,
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: to - from, alongMm: roundedMm(alongMm), sameWay, bandMm,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
     undecided,
     cannotTell: bandMm === null && !undecided && jitterUnknown(replay, face),
@@ -154,13 +154,28 @@ export function valueAt(timeS: number[], values: (number | null)[], t: number): 
 
 /** "is dragged 2.1 mm farther than in base": farther against its muscles, where these are weaker; less than others of
  *  its tissue make it follow. */
-export function changeSentence({ byMm, exactMm, bandMm, alongMm, sameWay, weaker }: CornerChange): string {
-  if (byMm === 0) return 'goes as in base';
-  if (!sameWay && alongMm < 0) return `goes ${mm(-alongMm)} the other way`;
+export function changeSentence({ byMm, exactMm, bandMm, sameWay, weaker }: CornerChange): string {
+  if (byMm === 0) return sameWay ? 'goes as in base' : 'goes as far as in base';
   const by = bandMm === null ? mm(Math.abs(byMm)) : heldAgainst(byMm, exactMm, bandMm).own;
   const how = byMm < 0 ? `${weaker ? 'moves' : 'follows'} ${by} less` : `${weaker ? 'is dragged' : 'moves'} ${by} farther`;
-  return `${how} than in base${sameWay ? '' : ', along its way there'}`;
+  return `${how} than in base`;
 }
+
+/** How much less, or more, it moves in the unchanged direction, where it turns aside; else 0, mm. */
+export const asideMm = ({ fromMm, alongMm, sameWay }: CornerChange): number => (sameWay ? 0 : roundedMm(alongMm - fromMm));
+
+/** "in the unchanged direction 5.9 mm less", where the corner turns aside; else empty. */
+export function directionWords(change: CornerChange): string {
+  const { alongMm, sameWay } = change;
+  if (sameWay) return '';
+  if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction`;
+  const by = asideMm(change);
+  return `in the unchanged direction ${by === 0 ? 'as far as there' : `${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'}`}`;
+}
+
+/** What that direction is, for readers. */
+export const directionMeaning =
+  'The unchanged direction is where the corner goes in base; motion aside of it counts in the distance from rest, not in it. That figure has no ±.';
 
 /** The error of a change as it is shown beside it, "0.6 mm"; empty where it is not known. */
 export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
@@ -169,14 +184,15 @@ export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
 /** "is dragged 2.1 ± 0.4 mm farther than in base" */
 function changeFigures(change: CornerChange): string {
   const { byMm, exactMm, bandMm, undecided, cannotTell } = change;
-  if (byMm === 0) return 'as base';
+  const aside = directionWords(change) && `, ${directionWords(change)}`;
+  if (byMm === 0) return aside ? `as far as base${aside}` : 'as base';
   if (undecided) {
     const { own, limit } = heldAgainst(byMm, exactMm, bandMm ?? 0);
     const figure = bandMm === null ? mm(Math.abs(byMm)) : `${own.replace(' mm', '')} ± ${limit}`;
-    return `undecided: ${figure} ${byMm < 0 ? 'less' : 'more'} than base`;
+    return `undecided: ${figure} ${byMm < 0 ? 'less' : 'more'} than base${aside}`;
   }
   const band = bandMm !== null ? `± ${bandWords(change)}` : cannotTell ? 'cannot tell: the recording’s jitter is not known' : '± not known';
-  return `${changeSentence(change)}, ${band}`;
+  return `${changeSentence(change)}, ${band}${aside}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */

@@ -268,7 +268,7 @@ const en = {
   againstBase: (by: string, more: boolean) => `${by} ${more ? 'more' : 'less'} than base`,
   asBase: 'as base',
   dragged: 'dragged farther',
-  alongBase: 'along its path in base',
+  asFarAsBase: 'as far as base',
   noBand: 'Error bands follow when you pause; until then a change below 0.5 mm may be noise.',
   band: (band: string) => `(± ${band})`,
   undecidedChange: (change: string) => `undecided: ${change}`,

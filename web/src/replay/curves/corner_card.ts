@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
-import { apartAgainstFloor, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, farthestMm, mm, sameMm, type CornerChange, type Corners } from '../corners';
+import {
+  apartAgainstFloor, asideMm, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, directionMeaning, directionWords, farthestMm, mm, sameMm,
+  type CornerChange, type Corners,
+} from '../corners';
 import type { Replay } from '../data';
 import { button, element, unbroken } from '../../page/dom';
 import type { Undo } from '../../page/listeners';
@@ -26,14 +29,17 @@ function floorWords(replay: Replay, corners: Corners): string {
   const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : cannotTell ? noJitter : 'No jitter of the recording was weighed: none is stated, and none shows.';
   const verdict = undecided ? `Undecided: a difference of the sides below ${limit} cannot be told from ${made}.`
     : `The sides differ by more than ${made}, ${limit}. Repeated smiles of one person differ, too: by how much this floor does not say.`;
-  return [verdict, why, filterWords(replay)].filter(Boolean).join(' ');
+  return [verdict, why].join(' ');
 }
+
+/** The cut-off of the filter that figures are of and the curve is not; 0: both are of the same path. */
+const filterHz = (replay: Replay): number =>
+  (replay.symmetry?.jitter_mm ?? 0) > 0 ? (replay.summary.symmetry as { lowpass_hz?: number } | undefined)?.lowpass_hz ?? 0 : 0;
 
 /** Figures are of filtered paths, the curve is not. */
 function filterWords(replay: Replay): string {
-  const hz = (replay.summary.symmetry as { lowpass_hz?: number } | undefined)?.lowpass_hz ?? 0;
-  return (replay.symmetry?.jitter_mm ?? 0) > 0 && hz > 0
-    ? `The figures are of paths without what is faster than ${hz} Hz; the curve is as measured, and its highest point may lie above them.` : '';
+  const hz = filterHz(replay);
+  return hz > 0 ? `The figures above are of paths without what is faster than ${hz} Hz; the curve is unfiltered, and its highest point may lie above them.` : '';
 }
 
 function meshFloorWhy(replay: Replay): string {
@@ -50,7 +56,8 @@ function sideWords(side: Side, valueMm: number): HTMLElement {
 /** The change of the corner that a variant changes more. */
 function mostChanged(replay: Replay, face: number): CornerChange | null {
   const changes = sides.flatMap((side) => cornerChange(replay, face, side) ?? []);
-  return changes.sort((a, b) => Math.abs(b.byMm) - Math.abs(a.byMm))[0] ?? null;
+  const size = (change: CornerChange) => Math.max(Math.abs(change.byMm), Math.abs(asideMm(change)));
+  return changes.sort((a, b) => size(b) - size(a))[0] ?? null;
 }
 
 interface Verdict {
@@ -71,11 +78,12 @@ function bandClause(change: CornerChange): string {
 function changeVerdict(replay: Replay, face: number): Verdict | null {
   const change = face > 0 ? mostChanged(replay, face) : null;
   if (!change) return null;
-  if (change.byMm === 0) return { text: 'both corners go as in base', undecided: false };
+  const second = directionWords(change), aside = second && `; ${second}`;
   const text = `${change.side} ${changeSentence(change)}`;
-  if (change.undecided) return { text: `${text}: undecided${change.bandMm === null ? '' : ` (below ${bandWords(change)})`}`, undecided: true };
-  if (change.cannotTell) return { text: `${text}: ${cannotTellWords}`, undecided: true };
-  return { text: change.bandMm === null ? text : `${text} (± ${bandWords(change)})`, undecided: false };
+  if (change.byMm === 0) return { text: aside ? `${text}${aside}` : 'both corners go as in base', undecided: false };
+  if (change.undecided) return { text: `${text}: undecided${change.bandMm === null ? '' : ` (below ${bandWords(change)})`}${aside}`, undecided: true };
+  if (change.cannotTell) return { text: `${text}: ${cannotTellWords}${aside}`, undecided: true };
+  return { text: `${text}${change.bandMm === null ? '' : ` (± ${bandWords(change)})`}${aside}`, undecided: false };
 }
 
 function strong({ text, undecided }: Verdict): HTMLElement {
@@ -121,8 +129,22 @@ function headlines(replay: Replay, face: number, corners: Corners): HTMLElement[
 }
 
 /** A sentence on what the figures above are. */
-const whatWords = (replay: Replay, face: number): string =>
-  `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.`;
+function whatWords(replay: Replay, face: number): string {
+  const change = face > 0 ? mostChanged(replay, face) : null;
+  const direction = change && !change.sameWay ? ` ${directionMeaning}` : '';
+  return `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.${direction}`;
+}
+
+/** Why a corner still moves on a side of which no muscle of this face pulls; empty where some do. */
+function unpulledWords(row: VariantRow | undefined): string {
+  const unpulled: unknown = row?.unpulled_sides;
+  if (!Array.isArray(unpulled)) return '';
+  return sides.filter((side) => unpulled.includes(letterOf[side])).map((side) => {
+    const withJaw = row?.[`commissure_${letterOf[side]}_with_jaw_mm`];
+    const fixed = isNumber(withJaw) && withJaw >= sameMm ? ` (fixed to it, the corner would go ${mm(withJaw)})` : '';
+    return `No muscle pulls on the ${side}: what motion is left there comes from the jaw${fixed}, the other side, and forces that no muscle explains.`;
+  }).join(' ');
+}
 
 /** "up to 3.7 mm from where it is in the unchanged face, at 1.93 s" of the side with the larger distance, which greatest excursions may hide. */
 function onTheWay(row: VariantRow | undefined, changeMm: number): string {
@@ -138,9 +160,11 @@ function onTheWay(row: VariantRow | undefined, changeMm: number): string {
 function againstBase(replay: Replay, face: number, row: VariantRow | undefined): string {
   const change = mostChanged(replay, face);
   if (!change) return '';
-  const path = onTheWay(row, change.byMm);
-  if (Math.abs(change.byMm) < sameMm) return path && `greatest excursions as in base; ${path}`;
-  return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${bandClause(change)}${path && `; ${path}`}`;
+  // One second figure at most: where the corner turns aside, or how far it is from base on the way.
+  const second = directionWords(change) || onTheWay(row, change.byMm);
+  if (Math.abs(change.byMm) < sameMm && change.sameWay) return second && `greatest excursions as in base; ${second}`;
+  const band = change.byMm === 0 ? '' : bandClause(change);
+  return `${change.side} corner ${mm(change.toMm)}, ${changeSentence(change)}${band}${second && `; ${second}`}`;
 }
 
 /** Where to see the effect of tissue if the corners are driven points. */
@@ -164,6 +188,12 @@ function variantLines(replay: Replay, shown: Shown, base: Corners): HTMLElement 
     dot.style.background = faceColour(i);
     face.append(dot, name);
     item.append(face, ': ', ...unbroken(words[i] || (row ? elsewhere(replay, i, row) : 'corners as base')));
+    const still = unpulledWords(row);
+    if (still) {
+      const why = element('small');
+      why.append(...unbroken(still));
+      item.append(' ', why);
+    }
     list.append(item);
   });
   const box = element('div');
@@ -179,15 +209,16 @@ export function cornerCurves(replay: Replay, shown: Shown): Omit<Chart, 'title'>
   const base = cornersOf(replay, faces[0]);
   if (!base) return [];
   const several = replay.faces.length > 1;
+  const unfiltered = filterHz(replay) > 0 ? ', unfiltered' : '';
   return [{
-    caption: '', unit: ' mm', digits: 1, timeS: base.timeS, yLabel: 'from rest (mm)', heightPx: 165,
+    caption: filterWords(replay), unit: ' mm', digits: 1, timeS: base.timeS, yLabel: 'from rest (mm)', heightPx: 165,
     curves: faces.flatMap((face, k) => {
       const own = cornersOf(replay, face)!;
       const whose = faces.length > 1 ? `${faceWords(replay.faces, face)}: ` : '';
       const file = several ? `${replay.faces[face].name}: ` : '';
       return [
-        { label: `${whose}right corner`, column: `${file}right corner (mm)`, values: own.right, hue: rightHue(), broken: k > 0 },
-        { label: `${whose}left corner`, column: `${file}left corner (mm)`, values: own.left, hue: leftHue(), broken: k > 0 },
+        { label: `${whose}right corner${unfiltered}`, column: `${file}right corner${unfiltered} (mm)`, values: own.right, hue: rightHue(), broken: k > 0 },
+        { label: `${whose}left corner${unfiltered}`, column: `${file}left corner${unfiltered} (mm)`, values: own.left, hue: leftHue(), broken: k > 0 },
       ];
     }),
   }];

@@ -7,7 +7,7 @@ import { faceHue, leftHue, rightHue } from '../../page/face_colour';
 import { faceWords, signed } from '../../page/format';
 import type { SymmetryCurve } from '../manifest';
 import type { Shown } from '../shown';
-import { disagreement, plainFigures } from './symmetry_words';
+import { disagreement, plainFigures, whatSCompares } from './symmetry_words';
 
 type Part = Omit<Chart, 'title'>;
 
@@ -72,7 +72,7 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
   return [{
     caption: [
       plainFigures(replay, shown), disagreement(replay, shown),
-      `S = ln |ξL − ξR|: smaller is more symmetric; it does not say which side moves more. ${floor.caption}`,
+      `S = ln |ξL − ξR|: smaller is more symmetric. ${whatSCompares} ${floor.caption}`,
     ].filter(Boolean).join(' '),
     unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
     range: rangeOf(own, [floor.curve.values, ...faces.map(({ curve }) => curve.s)]),

@@ -6,6 +6,11 @@ import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
 import type { Shown } from '../shown';
 
+/** As pictures and the terminal have it (metrics/symmetry.hpp). */
+export const whatSCompares =
+  'S compares how much the distances from each corner of the mouth to eye, lid, nose and lip stretch; it does not say which face moves more evenly in mm: ' +
+  'the excursions of both sides do.';
+
 /** If one side hardly moves, the ratio of the sides is meaningless. */
 const leastForRatioMm = 0.5;
 

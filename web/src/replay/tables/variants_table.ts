@@ -54,7 +54,7 @@ const columns: Column[] = [
   },
   {
     key: 'symmetry_integral_s', head: 'Symmetry integral', unit: 's', digits: 4,
-    says: '|ξL − ξR| summed over time; smaller is more symmetric.',
+    says: '|ξL − ξR| summed over time; smaller is more symmetric. As S it compares stretches, and does not say which face moves more evenly in mm.',
   },
 ];
 const insideOut: Column = {
@@ -68,11 +68,13 @@ function linesOf({ driven_point, response_point, table }: Variants): (string | H
        `${landmarkName(response_point)}, which moves most of those off the driven patches.`]
     : [];
   const decided = table.some((row) => isNumber(row.added_xi_floor))
-    ? 'All faces follow the very same motion, so its jitter does not count here. What a variant adds to ξL − ξR is undecided below its floor, which is what the mesh alone can make of it.'
-    : 'All faces follow the very same motion. What the mesh alone adds to ξL − ξR is not known, so a small added difference is undecided.';
+    ? 'What a variant adds to ξL − ξR is undecided below its floor, which is what the mesh alone can make of it; jitter is not in that floor.'
+    : 'What the mesh alone adds to ξL − ξR is not known, so a small added difference is undecided.';
+  const jitter = 'All faces follow the same recording, and so they share its jitter. A changed face scales it: the ± of a change of the corners holds that part' +
+    (table.some((row) => row.jitter_known === false) ? '. Here the jitter is not known, and the program cannot tell whether it makes such a change.' : '.');
   const first = element('p', 'Each variant against the unchanged face, base.');
   first.append(element('span', ' Press a name to see that face.', 'not-printed'));
-  return [first, ...points, decided];
+  return [first, ...points, jitter, decided];
 }
 
 /** Enough decimals for two significant digits of the column's largest figure. */
