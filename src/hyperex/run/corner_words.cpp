@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/metrics/symmetry_json.hpp"
+
 namespace hyperex::run {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -98,18 +100,32 @@ std::string side_words(const Json& base, const Json& variant, const std::string&
   return std::isnan(c.from_mm) || std::isnan(c.to_mm) ? "not known" : change_words(c);
 }
 
-}  // namespace
-
-std::string corners_line(const Json& summary) {
-  const auto& symmetry = summary["symmetry"];
-  if (!symmetry.contains("commissure")) return "";
-  const auto& corners = symmetry["commissure"];
+std::string line_of(const Json& corners) {
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
   const std::string line = fmt::format(
       "corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {:.1f} mm",
       rounded_mm(right), rounded_mm(left), std::abs(rounded_mm(left) - rounded_mm(right)));
   return line + floor_clause(corners, std::abs(left - right)) + "\n";
+}
+
+}  // namespace
+
+std::string corners_line(const Json& summary) {
+  const auto& symmetry = summary["symmetry"];
+  return symmetry.contains("commissure") ? line_of(symmetry["commissure"]) : "";
+}
+
+std::string corners_line(const metrics::Excursions& excursions) {
+  const Json corners = metrics::commissure_json(excursions);
+  return corners.is_null() ? "" : line_of(corners);
+}
+
+std::string rescaled_line(const Json& summary) {
+  if (!summary.contains("remarks")) return "";
+  for (const auto& remark : summary["remarks"])
+    if (remark.value("id", "") == "recording.rescaled") return remark.value("text", "") + "\n";
+  return "";
 }
 
 std::string variant_lines(const Json& summary) {
