@@ -267,8 +267,11 @@ std::optional<Note> skin_warning(const SkinOff& off) {
   return make_warning(
       "skin.far_from_scan",
       fmt::format(
-          "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: there the motion "
-          "is less accurate; a smaller mesh.element_size_mm or a cleaner scan helps",
+          "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: figures of "
+          "driven "
+          "points stay as recorded, those of other points within a centimetre of there, and of "
+          "variants there, are less accurate; a smaller mesh.element_size_mm or a cleaner scan "
+          "helps",
           off.distance_mm, off.beside_mm, off.landmark));
 }
 
