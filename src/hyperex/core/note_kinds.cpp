@@ -66,8 +66,8 @@ constexpr NoteKind kKinds[] = {
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
-    "20, or the scale is outside 0.95 to 1.05 (0.8 to 1.25 where a camera or a model of a face gives "
-    "the points). Points of recording.point_off do not count."),
+    "20, or the scale is outside 0.95 to 1.05. For points from a camera or a model of a face 0.8 to "
+    "1.25 hold. Points of recording.point_off do not count."),
   warning("recording.point_off", "motion.file",
     "After a fit that wrong points do not pull, a point is more than 8 mm and four times the median "
     "from the scan's landmark of its name, and its neighbours are not. 30 mm hold for points that "
