@@ -15,6 +15,7 @@
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/run/corner_words.hpp"
+#include "hyperex/run/expected_error_words.hpp"
 #include "hyperex/run/run_scene.hpp"
 #include "hyperex/run/surgery.hpp"
 
@@ -48,24 +49,6 @@ std::string budget_lines(const nlohmann::ordered_json& summary) {
   return lines;
 }
 
-/// How far the skin is expected to be from the true face, by region.
-std::string uncertainty_line(const nlohmann::ordered_json& summary) {
-  if (!summary.contains("uncertainty")) return "";
-  std::string errors, shares;
-  for (const char* region : {"lips", "cheeks", "eyes", "forehead"}) {
-    const auto at = summary["uncertainty"].find(region);
-    if (at == summary["uncertainty"].end()) continue;
-    const char* comma = errors.empty() ? "" : ", ";
-    errors += fmt::format("{}{} {:.1f} mm", comma, region, (*at)["distance_rms_mm"].get<double>());
-    shares += fmt::format("{}{:.0f}", comma, 100 * (*at)["determined"].get<double>());
-  }
-  if (errors.empty()) return "";
-  return fmt::format(
-      "expected error of the skin between the driven points: {}; the points determine {} % of its "
-      "variance\n",
-      errors, shares);
-}
-
 void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -82,13 +65,13 @@ void run(const RunOptions& options) {
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips at most {:.1f} mm apart, {:.1f} s "
       "in all\n"
-      "{}{}{}{}{}{}"
+      "{}{}{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::variant_lines(summary), run::surgery_lines(summary), uncertainty_line(summary),
-      budget_lines(summary), printable(options.out->string()));
+      run::rescaled_line(summary), run::variant_lines(summary), run::surgery_lines(summary),
+      run::expected_error_line(summary), budget_lines(summary), printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

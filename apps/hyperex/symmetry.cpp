@@ -30,6 +30,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
+#include "hyperex/run/corner_words.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -175,10 +176,9 @@ void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all
                       draw(all, "Symmetry of " + options.motion.filename().string()));
   if (!options.excursions.empty())
     metrics::write_excursions_csv(options.excursions, all.excursions);
-  if (!options.out.empty())
-    metrics::write_symmetry_csv(options.out, all);
-  else if (all.curve.known())
-    print_curve(all.curve);
+  if (!options.out.empty()) metrics::write_symmetry_csv(options.out, all);
+  std::cout << run::corners_line(all.excursions);
+  if (options.out.empty() && all.curve.known()) print_curve(all.curve);
   print_excursions(all.excursions);
   print_head_uncertainty(steady, jitter);
   print_summary(all, jitter);

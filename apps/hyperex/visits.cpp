@@ -47,6 +47,12 @@ std::string cell(const visits::VisitValue& value) {
                         : fmt::format("{:.1f}", rounded(value.value));
 }
 
+std::string interval(const visits::Change& change) {
+  return change.all ? fmt::format("{:>+8.1f} to {:>+6.1f}", rounded(change.all->low),
+                                  rounded(change.all->high))
+                    : "not known";
+}
+
 /// The first and the last visit beside each other.
 void print_table(const visits::Comparison& comparison) {
   const auto& entries = comparison.file.visits;
@@ -64,8 +70,7 @@ void print_table(const visits::Comparison& comparison) {
     std::cout << fmt::format("{:<56} {:>16}", name, text(one.values.front()));
     if (several) std::cout << fmt::format(" {:>16}", text(one.values.back()));
     if (const auto& change = one.changes.back())
-      std::cout << fmt::format(" {:>+10.1f} {:>+8.1f} to {:>+6.1f}  {}", rounded(change->value),
-                               rounded(change->all.low), rounded(change->all.high),
+      std::cout << fmt::format(" {:>+10.1f} {:>18}  {}", rounded(change->value), interval(*change),
                                words_of(change->beyond));
     std::cout << '\n';
   }

@@ -263,6 +263,7 @@ TEST_F(Program, WritesSymmetryAsCsv) {
   ASSERT_EQ(found.status, 0) << found.err;
   EXPECT_THAT(read_file(in("s.csv")), StartsWith("time_s,xi_R,xi_L,S_ln,floor,S_floor,"));
   EXPECT_TRUE(fs::exists(in("s.png")));
+  EXPECT_THAT(found.out, StartsWith("corners of the mouth: right "));
   EXPECT_THAT(found.err, HasSubstr("exocanthion_L: ibug68_45"));
 }
 

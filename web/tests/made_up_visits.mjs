@@ -94,7 +94,7 @@ export function madeUpVisits(count) {
     visits: Array.from({ length: count }, (_, i) => ({
       label: dates[i], note: i === 0 ? 'before injection' : i === count - 1 ? 'six months after injection, 12 weeks of exercises' : '',
       recordings: i === 1 ? ['smile_2a.csv', 'smile_2b.csv'] : [`smile_${i + 1}.csv`], peak_s: 1.23 + 0.1 * i, jitter_mm: i === 1 ? null : 0.31,
-      head_fit_mm: 0.8, eye_distance_mm: 88.1 + 0.2 * i, picture: picture(0.15 + 0.1 * i),
+      head_fit_mm: 0.8, eye_distance_mm: 88.1 + 0.2 * i, picture: picture(0.15 + 0.1 * i), no_picture: '',
     })),
     curves: Array.from({ length: count }, (_, i) => [curve(i, 0, count), ...(i === 1 ? [curve(i, 1, count)] : [])]).flat(),
     measures,

@@ -289,3 +289,11 @@ test('added volume in the table of surgery: what shows at the skin, and the land
   assert.deepEqual(complaints, []);
   await close();
 });
+
+test('values under the bar of colours do not overlap', async () => {
+  const { ticksOf } = await imported('replay/face/colouring.ts');
+  const texts = (least, greatest) => ticksOf({ least, greatest }).map(({ text }) => text);
+  assert.deepEqual(texts(192.4, 962), ['192.4', '577.2', '962']);
+  assert.deepEqual(texts(0, 5), ['0', '1', '2', '3', '4', '5']);
+  assert.deepEqual(texts(0, 1000), ['0', '500', '1,000']);
+});

@@ -127,6 +127,18 @@ describe('two visits', { skip: Boolean(given) }, () => {
   });
 });
 
+test('what a recording lacks is said in place of the picture, and no interval where it is not known', { skip: Boolean(given) }, async () => {
+  const visits = madeUpVisits(2);
+  Object.assign(visits.visits[1], { picture: '', no_picture: 'the corners of the mouth are not recorded', eye_distance_mm: null });
+  Object.assign(visits.measures[0].changes[1], { low: null, high: null, low_measured: null, high_measured: null, beyond: 'cannot tell' });
+  const { page, complaints, close } = await openVisits(visits);
+  assert.deepEqual(await page.locator('.no-picture').allTextContents(), ['No picture: the corners of the mouth are not recorded']);
+  assert.match(await page.locator('#explained').textContent(), /2026-04-12 .*outer eye corners not recorded;/);
+  assert.deepEqual((await rowsOf(page))[0].slice(4, 7), ['+2.4 (not known)', 'not known', 'cannot tell']);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('of more visits another can be compared', { skip: Boolean(given) }, async () => {
   const { page, complaints, close } = await openVisits(madeUpVisits(5));
   assert.equal((await headsOf(page)).filter((head) => /^2026-\d\d-\d\d$/.test(head)).length, 5);

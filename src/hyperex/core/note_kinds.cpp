@@ -70,7 +70,8 @@ constexpr NoteKind kKinds[] = {
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
-    "20, or the scale is outside 0.8 to 1.25. Points of recording.point_off do not count."),
+    "20, or the scale is outside 0.95 to 1.05. For points from a camera or a model of a face 0.8 to "
+    "1.25 hold. Points of recording.point_off do not count."),
   warning("recording.point_off", "motion.file",
     "After a fit that wrong points do not pull, a point is more than 8 mm and four times the median "
     "from the scan's landmark of its name, and its neighbours are not. 30 mm hold for points that "
@@ -167,6 +168,8 @@ constexpr NoteKind kKinds[] = {
   note("recording.start_unchecked", "motion.rest_s",
     "`hyperex check` does not see whether a camera's recording starts at rest."),
   note("recording.aligned", "alignment.method", "How recording and scan were aligned."),
+  note("recording.rescaled", "motion.file",
+    "Scan and recording differ in size by more than 3 %: results are in millimetres of the scan."),
   note("recording.jitter_stated", "output.jitter_mm", "The jitter that the scene states."),
   note("recording.jitter", "output.jitter_mm", "The jitter that the recorded points show."),
   note("recording.no_jitter", "output.jitter_mm",

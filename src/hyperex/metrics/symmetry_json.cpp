@@ -92,6 +92,12 @@ Json map_json(const Asymmetry& map) {
 
 }  // namespace
 
+Json commissure_json(const Excursions& excursions) {
+  for (const PairExcursion& p : excursions.pairs)
+    if (p.left == excursions.commissure.left && p.left >= 0) return pair_json(p);
+  return nullptr;
+}
+
 Json summary_of(const SymmetryMeasures& measures) {
   Json json = curve_json(measures.curve);
   json["jitter_known"] = measures.excursions.known.jitter;
@@ -99,10 +105,9 @@ Json summary_of(const SymmetryMeasures& measures) {
   const Commissure& mouth = measures.excursions.commissure;
   json["commissure_from_midlip_mm"] = both(mouth.left_from_midlip_mm, mouth.right_from_midlip_mm);
   Json pairs = Json::array();
-  for (const PairExcursion& p : measures.excursions.pairs) {
-    if (p.left == mouth.left && mouth.left >= 0) json["commissure"] = pair_json(p);
-    pairs.push_back(pair_json(p));
-  }
+  for (const PairExcursion& p : measures.excursions.pairs) pairs.push_back(pair_json(p));
+  if (const Json corners = commissure_json(measures.excursions); !corners.is_null())
+    json["commissure"] = corners;
   json["excursions"] = pairs;
   if (const auto& floor = measures.curve.mesh_noise; !floor.empty())
     json["mesh_floor"] = {{"known", true},

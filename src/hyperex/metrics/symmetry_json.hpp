@@ -12,4 +12,8 @@ namespace hyperex::metrics {
 /// on) where a figure is above its floors but not all noise is known (PairExcursion::decided).
 nlohmann::ordered_json summary_of(const SymmetryMeasures& measures);
 
+/// The entry "commissure" of the former: the corners of the mouth; null where they are not
+/// measured.
+nlohmann::ordered_json commissure_json(const Excursions& excursions);
+
 }  // namespace hyperex::metrics

@@ -9,7 +9,8 @@
 namespace hyperex::run {
 
 /// The asymmetry map on the moved skin, from the front and from both sides, with a colour bar in mm
-/// up to the 99th percentile over the face; a vertex without a counterpart is not coloured.
+/// up to the 99th percentile over the face; a vertex without a counterpart is not coloured,
+/// nor is one that lies, or whose counterpart lies, within 12 mm of the skin's longest border.
 /// `moved`: the displaced skin; `map_mm`: one value per vertex (asymmetry_mm); `landmarks`: those
 /// at rest.
 render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& map_mm,

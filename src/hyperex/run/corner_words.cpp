@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "hyperex/core/held_against.hpp"
+#include "hyperex/metrics/symmetry_json.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -133,18 +134,32 @@ std::string side_words(const Json& base, const Json& variant, const std::string&
   return std::isnan(c.from_mm) || std::isnan(c.to_mm) ? "not known" : change_words(c);
 }
 
-}  // namespace
-
-std::string corners_line(const Json& summary) {
-  const auto& symmetry = summary["symmetry"];
-  if (!symmetry.contains("commissure")) return "";
-  const auto& corners = symmetry["commissure"];
+std::string line_of(const Json& corners) {
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
   return fmt::format("corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {}\n",
                      rounded_mm(right), rounded_mm(left),
                      difference_words(corners, std::abs(rounded_mm(left) - rounded_mm(right)),
                                       std::abs(left - right)));
+}
+
+}  // namespace
+
+std::string corners_line(const Json& summary) {
+  const auto& symmetry = summary["symmetry"];
+  return symmetry.contains("commissure") ? line_of(symmetry["commissure"]) : "";
+}
+
+std::string corners_line(const metrics::Excursions& excursions) {
+  const Json corners = metrics::commissure_json(excursions);
+  return corners.is_null() ? "" : line_of(corners);
+}
+
+std::string rescaled_line(const Json& summary) {
+  if (!summary.contains("remarks")) return "";
+  for (const auto& remark : summary["remarks"])
+    if (remark.value("id", "") == "recording.rescaled") return remark.value("text", "") + "\n";
+  return "";
 }
 
 std::string variant_lines(const Json& summary) {

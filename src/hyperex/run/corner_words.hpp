@@ -6,12 +6,20 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "hyperex/metrics/excursion.hpp"
+
 namespace hyperex::run {
 
 /// One line: "corners of the mouth: right 12.7 mm, left 3.8 mm, a difference of 8.9 mm: more than
 /// the floor of 0.1 mm (mesh)"; empty if the corners are not known. Where the recording's jitter is
 /// not known, the line says so instead of letting the difference pass for decided.
 std::string corners_line(const nlohmann::ordered_json& summary);
+/// The same of a recording that was not simulated.
+std::string corners_line(const metrics::Excursions& excursions);
+
+/// One line: that results are in millimetres of the scan, and how the recording's compare. Empty
+/// where both have one size (`recording.rescaled` of the notes).
+std::string rescaled_line(const nlohmann::ordered_json& summary);
 
 /// The effect of each variant on the corners of the mouth, one line per variant: "  weak right:
 /// corner of the mouth right 9.6 to 6.2 mm, moves 3.4 mm less (+- 0.3); left 10.1 mm, unchanged".

@@ -120,7 +120,13 @@ void note_misfit(const scene::Scene& scene, const io::Landmarks& given,
     }
     add(in.notes, misplaced_warning(misplaced));
   }
-  add(in.notes, misfit_warning(fit, steady.unit_note, of_a_model));
+  add(in.notes, misfit_warning(fit, steady.unit_note,
+                               of_a_model                       ? PointsOf::model
+                               : scene.motion.recording.empty() ? PointsOf::person
+                                                                : PointsOf::camera));
+  // A model has no millimetres of its own, and parts of a face each have their scale.
+  if (!of_a_model && scene.alignment.method != simulate::AlignmentMethod::normalised)
+    add(in.notes, rescaled_note(in.motion.scan_from_motion.scale));
 }
 
 void align_recording(const scene::Scene& scene, const io::Landmarks& given,

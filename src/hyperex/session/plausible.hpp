@@ -27,12 +27,24 @@ FaceAtRest average_face();
 /// half of that with its points mirrored.
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
+/// Whose points a recording has.
+enum class PointsOf {
+  person,  ///< measured, in lengths that are known
+  camera,  ///< tracked, in lengths by its depth or by an assumed size
+  model    ///< of an average face that expressions move
+};
+
 /// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
 /// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
-/// else 10 mm. `of_a_model`: the points are of an average face that expressions move; 10 mm.
-/// `unit_note`: Motion::unit_note; where the scale is that of another unit, the warning names it.
+/// else 10 mm; or a scale outside 0.95 to 1.05. Of a model 10 mm, of a model and of a camera 0.8 to
+/// 1.25. `unit_note`: Motion::unit_note; where the scale is that of another unit, the warning names
+/// it.
 std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_note,
-                                   bool of_a_model);
+                                   PointsOf points_of);
+
+/// `recording.rescaled`: says so where alignment changes the lengths of the recording by more than
+/// 3 %. `scale`: of the similarity from the recording to the scan, above 0.
+std::optional<Note> rescaled_note(double scale);
 
 /// `recording.starts_in_expression`: the recording seems to begin in the middle of an expression
 /// (motion::started_in_expression). `of_weights`: of blend shapes, whose rest is known; never.

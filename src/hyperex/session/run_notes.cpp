@@ -77,7 +77,11 @@ std::vector<Note> run_warnings(const simulate::SimulationReport& report,
   std::vector<Note> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
     warn("lips.pass_through",
-         fmt::format("the lips pass through each other by up to {:.1f} mm", report.lip_overlap_mm),
+         fmt::format("the lips pass through each other by up to {0:.1f} mm: by as much at most, "
+                     "figures of the lips between driven points are off, also their opening; those "
+                     "of driven points, as the corners of the mouth, are not; contact.lips = true "
+                     "keeps the lips apart",
+                     report.lip_overlap_mm),
          notes);
   if (report.inverted_tets > 0 && !few_are_inverted(report.inverted_tets, p.tets.rows()))
     warn("tissue.inverted",
@@ -146,12 +150,14 @@ std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double bas
   for (const VariantRun& run : runs)
     if (const double mm = run.simulation.report.lip_overlap_mm;
         mm > kLipsPass_mm && (base_mm <= kLipsPass_mm || mm > base_mm + kAsBase_mm))
-      warn(
-          "variant.lips_pass_through",
-          fmt::format(
-              "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in base)",
-              run.scene.title, mm, base_mm),
-          notes, run.scene.title);
+      warn("variant.lips_pass_through",
+           fmt::format(
+               "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in "
+               "base): its figures of the lips are off by as much at most; contact.lips = true "
+               "keeps "
+               "the lips apart",
+               run.scene.title, mm, base_mm),
+           notes, run.scene.title);
   return notes;
 }
 

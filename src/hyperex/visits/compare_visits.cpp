@@ -132,10 +132,12 @@ Change change_between(const VisitValue& first, const VisitValue& now, const Scat
     both.add(ErrorPart::repetition, std::max(0.0, std::pow(all / kWithin95, 2) - both.variance()));
   }
   const bool known = first.measured && now.measured;
-  if (known) change.measured = Interval{change.value - measured, change.value + measured};
-  change.all = {change.value - all, change.value + all};
-  if (change.all.low > 0 || change.all.high < 0)
-    change.beyond = known ? Beyond::yes : Beyond::cannot_tell;
+  // Without the error of measurement an interval would be too narrow.
+  if (known) {
+    change.measured = Interval{change.value - measured, change.value + measured};
+    change.all = Interval{change.value - all, change.value + all};
+  }
+  if (std::abs(change.value) > all) change.beyond = known ? Beyond::yes : Beyond::cannot_tell;
   change.largest = name_of(both.largest());
   return change;
 }

@@ -45,10 +45,10 @@ enum class Beyond { no, yes, cannot_tell };
 /// The difference of a visit from the first.
 struct Change {
   double value = 0;
-  Interval all;                      ///< 95 %, with repetition
+  std::optional<Interval> all;       ///< 95 %, with repetition; nothing: unknown, as `measured` is
   std::optional<Interval> measured;  ///< 95 %, by measurement alone; nothing: unknown
-  /// Whether 0 lies outside `all`. If the measurement's part is unknown, a change beyond repetition
-  /// is cannot_tell.
+  /// Whether 0 lies outside `all`. If the measurement's part is unknown, a change within repetition
+  /// alone is `no`, and one beyond it is cannot_tell.
   Beyond beyond = Beyond::no;
   std::string largest;  ///< the largest part of the error
 };

@@ -33,16 +33,27 @@ std::string with_side(const std::string& side, const std::string& part) {
 
 std::string interval_words(const Interval& interval, double sign) {
   const double a = sign * interval.low, b = sign * interval.high;
-  return fmt::format("95 %: {:.1f} to {:.1f}", std::min(a, b), std::max(a, b));
+  return fmt::format(" (95 %: {:.1f} to {:.1f})", std::min(a, b), std::max(a, b));
+}
+
+/// " on 2026-03-01", but " (before injection)".
+std::string at_visit(const std::string& label) {
+  const std::string form = "0000-00-00";
+  bool date = label.size() >= form.size();
+  for (std::size_t i = 0; date && i < form.size(); ++i)
+    date = form[i] == '-' ? label[i] == '-' : label[i] >= '0' && label[i] <= '9';
+  return date ? " on " + label : " (" + label + ")";
 }
 
 std::string verdict(const Change& change, const Headline& words, const std::string& unit) {
   const bool less = change.value < 0;
   const std::string amount =
-      fmt::format("{:.1f} {} {} ({})", std::abs(change.value), unit, less ? words.less : words.more,
-                  interval_words(change.all, less ? -1 : 1));
+      fmt::format("{:.1f} {} {}{}", std::abs(change.value), unit, less ? words.less : words.more,
+                  change.all ? interval_words(*change.all, less ? -1 : 1) : "");
   if (change.beyond == Beyond::yes) return amount + ", beyond what measurement and repetition make";
-  if (change.beyond == Beyond::no) return amount + ", within what measurement and repetition make";
+  if (change.beyond == Beyond::no)
+    return amount + (change.all ? ", within what measurement and repetition make"
+                                : ", within what repetition alone makes");
   return amount +
          "; whether that is beyond what measurement makes cannot be told, as its error is "
          "not known";
@@ -54,12 +65,13 @@ std::string sentence(const MeasureOverVisits& one, const Headline& words, const 
   const auto& first = one.values.front();
   const auto& last = one.values.back();
   if (one.values.size() == 1)
-    return fmt::format("{}: {:.1f} {} on {}.", who, first->value, unit, file.visits.front().label);
+    return fmt::format("{}: {:.1f} {}{}.", who, first->value, unit,
+                       at_visit(file.visits.front().label));
   if (!first || !last)
     return fmt::format("{}: not measured at both the first and the last visit.", who);
-  return fmt::format("{}: {:.1f} {} on {}, {:.1f} {} on {}: {}.", who, first->value, unit,
-                     file.visits.front().label, last->value, unit, file.visits.back().label,
-                     verdict(*one.changes.back(), words, unit));
+  return fmt::format("{}: {:.1f} {}{}, {:.1f} {}{}: {}.", who, first->value, unit,
+                     at_visit(file.visits.front().label), last->value, unit,
+                     at_visit(file.visits.back().label), verdict(*one.changes.back(), words, unit));
 }
 
 }  // namespace

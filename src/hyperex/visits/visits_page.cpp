@@ -45,8 +45,8 @@ json value_json(const std::optional<VisitValue>& value) {
 json change_json(const std::optional<Change>& change) {
   if (!change) return nullptr;
   return {{"value", rounded(change->value)},
-          {"low", rounded(change->all.low)},
-          {"high", rounded(change->all.high)},
+          {"low", low_of(change->all)},
+          {"high", high_of(change->all)},
           {"low_measured", low_of(change->measured)},
           {"high_measured", high_of(change->measured)},
           {"beyond", words_of(change->beyond)},
@@ -79,6 +79,16 @@ std::vector<std::string> pictures_of(const Comparison& comparison) {
   return pictures;
 }
 
+/// What the recording of a visit without a picture lacks; else empty. The first visit determines
+/// the directions of all.
+std::string why_no_picture(const Comparison& comparison, std::size_t visit, bool without) {
+  if (!without) return "";
+  if (comparison.faces.front().front().state.axes.allFinite())
+    return "fewer than three still points in common with the first visit";
+  return fmt::format("the outer corners of the eyes or the corners of the mouth are not recorded{}",
+                     visit == 0 ? "" : " at the first visit");
+}
+
 json visits_json(const Comparison& comparison) {
   const std::vector<std::string> pictures = pictures_of(comparison);
   json all = json::array();
@@ -94,7 +104,8 @@ json visits_json(const Comparison& comparison) {
                    {"jitter_mm", face.jitter_known ? rounded(1e3 * face.jitter_m) : json()},
                    {"head_fit_mm", v == 0 ? json() : rounded(1e3 * face.head_fit_m)},
                    {"eye_distance_mm", rounded(1e3 * face.eye_distance_m, 1)},
-                   {"picture", pictures[v]}});
+                   {"picture", pictures[v]},
+                   {"no_picture", why_no_picture(comparison, v, pictures[v].empty())}});
   }
   return all;
 }

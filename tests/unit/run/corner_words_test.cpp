@@ -163,6 +163,35 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
                         "known\n"));
 }
 
+TEST(CornerWords, OfARecordingAreThoseOfARun) {
+  metrics::Excursions excursions;
+  EXPECT_EQ(corners_line(excursions), "");
+  metrics::PairExcursion pair;
+  pair.left = 1;
+  pair.right = 0;
+  pair.right_side.excursion_mm = 9.86;
+  pair.left_side.excursion_mm = 4.07;
+  pair.jitter_floor_mm = 0.15;
+  pair.pose_floor_mm = 0.3;
+  excursions.pairs = {pair};
+  excursions.commissure.left = 1;
+  excursions.commissure.right = 0;
+  EXPECT_EQ(
+      corners_line(excursions),
+      "corners of the mouth: right 9.9 mm, left 4.1 mm, a difference of 5.8 mm: more than the "
+      "floor of 0.3 mm (head pose)\n");
+  excursions.commissure.left = 2;
+  EXPECT_EQ(corners_line(excursions), "") << "the pair of other points";
+}
+
+TEST(CornerWords, TheRunSaysInWhoseMillimetresItIs) {
+  Json summary{{"remarks", {{{"id", "recording.aligned"}, {"text", "aligned"}}}}};
+  EXPECT_EQ(rescaled_line(summary), "");
+  summary["remarks"].push_back({{"id", "recording.rescaled"}, {"text", "of the scan"}});
+  EXPECT_EQ(rescaled_line(summary), "of the scan\n");
+  EXPECT_EQ(rescaled_line(Json::object()), "");
+}
+
 TEST(CornerWords, AChangeWithinItsBandIsUndecided) {
   EXPECT_THAT(variant_lines(summary_of({6.7, 7.0, 7.0, 0.5}, same, {"R"})),
               HasSubstr("right 6.7 to 7.0 mm, undecided: 0.3 mm more (+- 0.5)"));

@@ -155,6 +155,19 @@ TEST_F(InputNotes, SayHowBadlyTheRecordingFits) {
   EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.fits_badly"), says("0.667"))));
 }
 
+TEST_F(InputNotes, SayInWhoseMillimetresResultsAre) {
+  open(0, 16, [](motion::Motion& m) {
+    for (auto& sample : m.positions) sample /= 1.04;
+  });
+  EXPECT_THAT(warnings(), IsEmpty());
+  EXPECT_THAT(notes(),
+              Contains(AllOf(is_note("recording.rescaled"), says("1.040 times as large"))));
+  EXPECT_THAT(notes({"alignment.method=\"normalised\""}),
+              Not(Contains(has_id("recording.rescaled"))));
+  open(0, 16, [](motion::Motion&) {});
+  EXPECT_THAT(notes(), Not(Contains(has_id("recording.rescaled"))));
+}
+
 TEST_F(InputNotes, NameThePointThatDoesNotFitInPlaceOfAMisfit) {
   open(0, 16, [](motion::Motion& m) {
     for (auto& sample : m.positions) sample(m.index_of("ibug68_54"), 2) += 0.06;
@@ -181,12 +194,14 @@ TEST_F(InputNotes, NameTheUnitThatFits) {
 }
 
 TEST_F(InputNotes, TellAnotherPersonsFaceFromTheOwnAsADepthCameraSeesIt) {
-  // A face that is `share` taller than the scan's.
+  // A face that is taller than the scan's by `share`, narrower by half of it, and hence as large.
   const auto read_taller = [&](double share) {
     open(0, 16, [&](motion::Motion& m) {
       const double middle = m.positions.front().col(1).mean();
-      for (auto& sample : m.positions)
+      for (auto& sample : m.positions) {
         sample.col(1).array() += share * (sample.col(1).array() - middle);
+        sample.col(0) *= 1 - share / 2;
+      }
     });
     return read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick);
   };

@@ -16,6 +16,7 @@ namespace hyperex::session {
 using namespace scene;
 namespace {
 using test::is_about;
+using test::is_note;
 using test::is_warning;
 using test::says;
 using testing::AllOf;
@@ -42,7 +43,8 @@ TEST(SkinWarning, NamesThePlaceOnTheFace) {
   EXPECT_EQ(off.landmark, "alare_L");
   EXPECT_THAT(skin_warning(off),
               Optional(AllOf(is_warning("skin.far_from_scan"), is_about("mesh.element_size_mm"),
-                             says("9.0 mm"), says("10 mm from alare_L"))));
+                             says("9.0 mm"), says("10 mm from alare_L"),
+                             says("figures of driven points stay as recorded"))));
   EXPECT_EQ(skin_warning(skin_off_scan(skin_off_by(0.004), landmarks)), std::nullopt);
 }
 
@@ -87,23 +89,47 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
 }
 
 TEST(MisfitWarning, DependsOnHowManyPointsAreCommon) {
-  const auto warned = [](double rms_mm, std::size_t common, bool of_a_model, double scale = 1) {
-    return misfit_warning({rms_mm, scale, common}, "mm (as stated)", of_a_model).has_value();
+  using enum PointsOf;
+  const auto warned = [](double rms_mm, std::size_t common, PointsOf points, double scale = 1) {
+    return misfit_warning({rms_mm, scale, common}, "mm (as stated)", points).has_value();
   };
-  EXPECT_TRUE(warned(5.1, 20, false));
-  EXPECT_FALSE(warned(4.9, 20, false));
-  EXPECT_FALSE(warned(9.9, 19, false)) << "few points say less";
-  EXPECT_TRUE(warned(10.1, 19, false));
-  EXPECT_FALSE(warned(9.9, 68, true)) << "a model's face is nobody's";
-  EXPECT_TRUE(warned(10.1, 68, true));
-  EXPECT_TRUE(warned(1, 68, false, 0.79));
-  EXPECT_TRUE(warned(1, 68, false, 1.26));
-  EXPECT_FALSE(warned(1, 68, false, 1.24));
+  EXPECT_TRUE(warned(5.1, 20, person));
+  EXPECT_FALSE(warned(4.9, 20, person));
+  EXPECT_FALSE(warned(9.9, 19, person)) << "few points say less";
+  EXPECT_TRUE(warned(10.1, 19, person));
+  EXPECT_FALSE(warned(9.9, 68, model)) << "a model's face is nobody's";
+  EXPECT_TRUE(warned(10.1, 68, model));
+  for (const PointsOf loose : {camera, model}) {
+    EXPECT_TRUE(warned(1, 68, loose, 0.79));
+    EXPECT_TRUE(warned(1, 68, loose, 1.26));
+    EXPECT_FALSE(warned(1, 68, loose, 1.24));
+  }
+}
+
+// 2.3 mm rms at a scale of 0.933: the smile of one person on the scan of another, by seven points.
+TEST(MisfitWarning, KnowsAnotherPersonByTheSize) {
+  const auto warning = [](double rms_mm, double scale) {
+    return misfit_warning({rms_mm, scale, 7}, "mm (as stated)", PointsOf::person);
+  };
+  EXPECT_THAT(warning(2.3, 0.933),
+              Optional(AllOf(is_warning("recording.fits_badly"), says("a scale of 0.933"),
+                             says("0.95 to 1.05"), says("both are of one person"))));
+  EXPECT_NE(warning(2.3, 1.06), std::nullopt);
+  for (const double own : {0.96, 0.982, 1.007, 1.04}) EXPECT_EQ(warning(1, own), std::nullopt);
+}
+
+TEST(RescaledNote, SaysInWhoseMillimetresResultsAre) {
+  EXPECT_THAT(rescaled_note(0.931),
+              Optional(AllOf(is_note("recording.rescaled"), says("in millimetres of the scan"),
+                             says("they are 1.074 times as large"))));
+  EXPECT_NE(rescaled_note(1.031), std::nullopt);
+  EXPECT_EQ(rescaled_note(1.029), std::nullopt);
+  EXPECT_EQ(rescaled_note(0.971), std::nullopt);
 }
 
 TEST(MisfitWarning, NamesTheUnitWhoseScaleItIs) {
   const auto text = [](double scale, const std::string& unit_note) {
-    return misfit_warning({0.1, scale, 68}, unit_note, false).value().text;
+    return misfit_warning({0.1, scale, 68}, unit_note, PointsOf::person).value().text;
   };
   EXPECT_THAT(text(10, "mm (as the columns say)"),
               AllOf(HasSubstr("as if in cm, and were read as mm (as the columns say)"),

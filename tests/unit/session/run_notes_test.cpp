@@ -34,7 +34,9 @@ TEST(RunWarnings, LipsThatPassByMoreThanHalfAMillimetre) {
   report.lip_overlap_mm = 0.52;
   EXPECT_THAT(run_warnings(report, {}),
               ElementsAre(is_warning("lips.pass_through", "contact.lips")));
-  EXPECT_THAT(run_warnings(report, {}), ElementsAre(says("0.5 mm")));
+  EXPECT_THAT(
+      run_warnings(report, {}),
+      ElementsAre(AllOf(says("0.5 mm"), says("by as much at most"), says("contact.lips = true"))));
 }
 
 TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {

@@ -56,6 +56,25 @@ TEST(ScanLandmarks, AreTheSameWhereItIsKnownRoughlyHowTheFaceLies) {
     EXPECT_LT((found.landmarks.at(name) - at).norm(), 1e-3) << name;
 }
 
+TEST(ScanPictures, ShowTheForeheadAboveTheFacesPoints) {
+  const Eigen::Matrix3d turn = test::slanting_turn(9);
+  ScanLandmarks found;
+  found.scan_from_canonical.rotation = turn;
+  Points face(2, 3), scan(6, 3);
+  face << -0.07, -0.08, -0.05, 0.07, 0.06, 0.02;
+  scan << 0, 0.11, 0,  // on the forehead
+      0, 0.13, 0,      // above it
+      0, 0, 0,         // between the face's points
+      0.1, 0.11, 0,    // an ear
+      0, 0.11, -0.1,   // the back of the head
+      0, -0.2, 0;      // the neck
+  found.face_points = face * turn.transpose();
+  const Points shown = pictured_points({scan * turn.transpose(), {}}, found);
+  ASSERT_EQ(shown.rows(), 3);
+  EXPECT_TRUE(shown.topRows(2).isApprox(found.face_points));
+  EXPECT_TRUE(shown.row(2).isApprox(scan.row(0) * turn.transpose()));
+}
+
 TEST(ScanLandmarks, NoFaceIsSaidInOneLine) {
   // A ball of the size of a head.
   TriMesh ball;

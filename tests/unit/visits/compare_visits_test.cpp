@@ -10,8 +10,10 @@
 
 namespace hyperex::visits {
 namespace {
+using testing::AllOf;
 using testing::ElementsAre;
 using testing::HasSubstr;
+using testing::Not;
 
 const MeasureOverVisits& named(const Comparison& comparison, const std::string& key,
                                const std::string& side) {
@@ -45,8 +47,8 @@ TEST(CompareVisits, RepetitionIsTheIntervalOfAnExcursion) {
   const Change& right = *named(two, "corner_excursion", "R").changes.back();
   EXPECT_NEAR(right.value, -0.4e3 * kWholeSmile.norm(), 0.05);
   // Exact points leave the head's pose, which is small here, and repetition.
-  EXPECT_NEAR(right.all.high - right.value, 1.5, 0.3);
-  EXPECT_GE(right.all.high - right.value, 1.5);
+  EXPECT_NEAR(right.all->high - right.value, 1.5, 0.3);
+  EXPECT_GE(right.all->high - right.value, 1.5);
   EXPECT_LT(right.measured->high - right.value, 1.0);
   EXPECT_EQ(right.beyond, Beyond::yes);
   EXPECT_EQ(right.largest, "repetition");
@@ -55,7 +57,7 @@ TEST(CompareVisits, RepetitionIsTheIntervalOfAnExcursion) {
   EXPECT_EQ(left.beyond, Beyond::no);
   // Two corners of independent errors.
   const Change& difference = *named(two, "corner_difference", "").changes.back();
-  EXPECT_NEAR(difference.all.high - difference.value, std::sqrt(2.0) * 1.5, 0.5);
+  EXPECT_NEAR(difference.all->high - difference.value, std::sqrt(2.0) * 1.5, 0.5);
 }
 
 TEST(CompareVisits, TheStretchIsThatOfTheSymmetryCurve) {
@@ -72,7 +74,7 @@ TEST(CompareVisits, TheStretchIsThatOfTheSymmetryCurve) {
 TEST(CompareVisits, WithoutRepetitionMeasurementAloneDecides) {
   const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}}, 0.0, 0);
   const Change& right = *named(two, "corner_excursion", "R").changes.back();
-  EXPECT_DOUBLE_EQ(right.all.low, right.measured->low);
+  EXPECT_DOUBLE_EQ(right.all->low, right.measured->low);
   EXPECT_NE(right.largest, "repetition");
 }
 
@@ -81,8 +83,12 @@ TEST(CompareVisits, UnknownJitterCannotTellOfALargeChange) {
   const Change& right = *named(two, "corner_excursion", "R").changes.back();
   EXPECT_EQ(right.beyond, Beyond::cannot_tell);
   EXPECT_FALSE(right.measured);
+  EXPECT_FALSE(right.all) << "it would be that of repetition alone";
   EXPECT_EQ(named(two, "corner_excursion", "L").changes.back()->beyond, Beyond::no);
-  EXPECT_THAT(summary(two).front(), HasSubstr("cannot be told"));
+  const std::vector<std::string> sentences = summary(two);
+  EXPECT_THAT(sentences[0], AllOf(HasSubstr("cannot be told"), Not(HasSubstr("95 %"))));
+  EXPECT_THAT(sentences[1],
+              AllOf(HasSubstr("within what repetition alone makes"), Not(HasSubstr("95 %"))));
 }
 
 TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
@@ -99,7 +105,7 @@ TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
   EXPECT_NEAR(right.recorded_repetition, deviation, 0.01 * deviation);
   EXPECT_NEAR(right.changes.back()->value, -0.4 * whole_mm, 0.05);
   constexpr double t_of_3 = 3.182446;
-  EXPECT_NEAR(right.changes.back()->all.high - right.changes.back()->value,
+  EXPECT_NEAR(right.changes.back()->all->high - right.changes.back()->value,
               t_of_3 * deviation * std::sqrt(1.0 / 3 + 1.0 / 2), 0.02 * whole_mm);
   EXPECT_THAT(repetition_sentence(two), HasSubstr("measured"));
 }
@@ -107,12 +113,15 @@ TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
 TEST(CompareVisits, SayWhatChangedInSentences) {
   const std::vector<std::string> sentences = summary(of_smiles({{Smile{}}, {Smile{.right = 0.6}}}));
   ASSERT_EQ(sentences.size(), 3u);
-  EXPECT_THAT(sentences[0], testing::StartsWith("Right corner of the mouth: 11.5 mm on day 1"));
+  EXPECT_THAT(sentences[0], testing::StartsWith("Right corner of the mouth: 11.5 mm (day 1)"));
   EXPECT_THAT(sentences[0], HasSubstr("4.6 mm less"));
   EXPECT_THAT(sentences[0], HasSubstr("beyond what"));
   EXPECT_THAT(sentences[1], HasSubstr("within what"));
-  EXPECT_THAT(summary(of_smiles({{Smile{}}}))[0], HasSubstr("11.5 mm on day 1."));
+  EXPECT_THAT(summary(of_smiles({{Smile{}}}))[0], HasSubstr("11.5 mm (day 1)."));
   EXPECT_THAT(sentences.back(), HasSubstr("Healthy adults move the corner of the mouth by 9.3 mm"));
+  Comparison dated = of_smiles({{Smile{}}});
+  dated.file.visits[0].label = "2026-03-01";
+  EXPECT_THAT(summary(dated)[0], HasSubstr("11.5 mm on 2026-03-01."));
   Comparison pucker = of_smiles({{Smile{}}});
   pucker.file.expression = *expression_named("pucker");
   EXPECT_EQ(summary(pucker).size(), 2U) << "no norm of a smile";

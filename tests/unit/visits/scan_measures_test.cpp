@@ -53,7 +53,7 @@ TEST(ScanMeasures, TheFoldOfARealSmileDeepens) {
     const Change& change = *one.changes.back();
     if (one.measure.key != "fold_depth") continue;
     EXPECT_NEAR(one.values.back()->value, 3.8, 0.6) << one.measure.side;
-    EXPECT_GT(change.all.low, 0);
+    EXPECT_GT(change.all->low, 0);
     EXPECT_EQ(change.beyond, Beyond::yes);
     const double half_mm = change.measured->high - change.value;
     EXPECT_GT(half_mm, 0.1) << "landmarks";

@@ -41,17 +41,18 @@ TEST(VisitsOutputs, TheTableHasEachMeasureOfEachVisit) {
   EXPECT_EQ(right[12], "yes");
 }
 
-TEST(VisitsOutputs, ThePageHasTheSameFigures) {
+nlohmann::json page_of(const Comparison& comparison) {
   const TestFolder folder;
-  const Comparison two = two_visits();
-  write_visits_page(folder / "v.html", two);
+  write_visits_page(folder / "v.html", comparison);
   const std::string page = read_file(folder / "v.html");
   const std::string begin = "id=\"hyperex-manifest\" type=\"application/json\">";
-  const auto at = page.find(begin);
-  ASSERT_NE(at, std::string::npos);
-  const auto end = page.find("</script>", at);
-  const auto manifest =
-      nlohmann::json::parse(page.substr(at + begin.size(), end - at - begin.size()));
+  const auto at = page.find(begin) + begin.size();
+  return nlohmann::json::parse(page.substr(at, page.find("</script>", at) - at));
+}
+
+TEST(VisitsOutputs, ThePageHasTheSameFigures) {
+  const Comparison two = two_visits();
+  const nlohmann::json manifest = page_of(two);
   EXPECT_EQ(manifest["patient"], "P-017 </script>");
   ASSERT_EQ(manifest["measures"].size(), two.measures.size());
   EXPECT_NEAR(manifest["measures"][0]["changes"][1]["value"].get<double>(),
@@ -62,6 +63,25 @@ TEST(VisitsOutputs, ThePageHasTheSameFigures) {
   EXPECT_EQ(manifest["visits"][1]["recordings"][0], "smile.csv");
   EXPECT_TRUE(manifest["visits"][0]["picture"].get<std::string>().starts_with(
       "data:image/png;base64,iVBOR"));
+  EXPECT_EQ(manifest["visits"][0]["no_picture"], "");
+}
+
+TEST(VisitsOutputs, ThePageSaysWhatAPictureLacks) {
+  VisitsFile file = visits_of(2);
+  for (VisitEntry& visit : file.visits) visit.recordings = {"smile.csv"};
+  motion::Motion without_corner = recording_of({});
+  for (std::string& name : without_corner.names)
+    if (name == "ibug68_36") name = "marker";
+  const MeasuredFace first = measure(without_corner, file, std::nullopt, nullptr);
+  const MeasuredFace second = measure(recording_of({.right = 0.6}), file, std::nullopt, &first);
+  const nlohmann::json manifest = page_of(compare(file, {{first}, {second}}));
+  const std::string lacks =
+      "the outer corners of the eyes or the corners of the mouth are not recorded";
+  EXPECT_EQ(manifest["visits"][0]["picture"], "");
+  EXPECT_EQ(manifest["visits"][0]["no_picture"], lacks);
+  EXPECT_EQ(manifest["visits"][1]["no_picture"], lacks + " at the first visit");
+  for (const char* bound : {"low", "high"})
+    EXPECT_TRUE(manifest["measures"][0]["changes"][1][bound].is_null()) << "an unknown jitter";
 }
 
 /// Sum of differences over the pixels of the left or right half of two pictures.

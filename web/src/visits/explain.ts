@@ -7,7 +7,7 @@ const mm = (value: number | null): string => (value === null ? 'not known' : `${
 
 function recordedWords({ recordings, peak_s, jitter_mm, head_fit_mm, eye_distance_mm }: Visit): string {
   return (
-    `${recordings.join(', ')}; peak at ${peak_s.toFixed(2)} s; outer eye corners ${mm(eye_distance_mm)} apart; ` +
+    `${recordings.join(', ')}; peak at ${peak_s.toFixed(2)} s; ${eye_distance_mm === null ? 'outer eye corners not recorded' : `outer eye corners ${mm(eye_distance_mm)} apart`}; ` +
     `${head_fit_mm === null ? '' : `head fitted within ${mm(head_fit_mm)}; `}tracking jitter ${mm(jitter_mm)}.`
   );
 }
@@ -16,7 +16,7 @@ function recordedWords({ recordings, peak_s, jitter_mm, head_fit_mm, eye_distanc
 const changeWords = (count: number): (string | HTMLElement)[] => [
   'Change: the later visit less the first. ',
   ...(count <= 3 ? [element('span', 'By measurement alone: its interval without repetition. ', 'measured')] : []),
-  'Yes: measurement and repetition together do not make such a change. No: they can. Cannot tell: it is beyond repetition, but the error of measurement is not known. ' +
+  'Yes: measurement and repetition together do not make such a change. No: they can. Cannot tell: it is beyond repetition, but the error of measurement is not known, and so there is no interval. ' +
     'Last column: the largest part of the change’s interval. ',
 ];
 

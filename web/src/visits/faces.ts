@@ -4,14 +4,14 @@ import { element } from '../page/dom';
 import { printedVisits, type Choice } from './choice';
 import type { Manifest, Visit } from './manifest';
 
-function faceOf({ label, note, picture }: Visit, expression: string): HTMLElement {
+function faceOf({ label, note, picture, no_picture }: Visit, expression: string): HTMLElement {
   const figure = element('figure', '', 'face');
   if (picture) {
     const image = element('img');
     image.src = picture;
     image.alt = `The face at the peak of the ${expression}, ${label}`;
     figure.append(image);
-  } else figure.append(element('p', 'No picture', 'no-picture'));
+  } else figure.append(element('p', no_picture ? `No picture: ${no_picture}` : 'No picture', 'no-picture'));
   const caption = element('figcaption');
   caption.append(element('b', label));
   if (note) caption.append(element('span', note));

@@ -24,7 +24,7 @@ export function valueFigure({ value, low, high }: Value, unit: Measure['unit']):
 /** With one more decimal where a bound would print as 0 beside a change that is beyond. */
 function changeDigits({ low, high, beyond }: Change, unit: Measure['unit']): number {
   const digits = digitsOf(unit);
-  const toNothing = [low, high].some((bound) => bound !== 0 && Number(bound.toFixed(digits)) === 0);
+  const toNothing = [low, high].some((bound) => bound !== null && bound !== 0 && Number(bound.toFixed(digits)) === 0);
   return beyond === 'yes' && toNothing ? digits + 1 : digits;
 }
 

@@ -15,6 +15,8 @@ export interface Visit {
   eye_distance_mm: number | null;
   /** The face at the peak, 3:4, with R and L drawn in it; empty: none. */
   picture: string;
+  /** What the recording lacks for a picture; empty where there is one. */
+  no_picture: string;
 }
 
 /** Distance of the corners of the mouth from rest; time 0 is where the movement first reaches half of
@@ -39,9 +41,9 @@ export type Part = 'repetition' | 'jitter' | 'head pose' | 'axes' | 'landmarks';
 
 export interface Change {
   value: number;
-  /** The interval of 95 %, repetition included; its measurement's part counts as 0 where that is not known. */
-  low: number;
-  high: number;
+  /** The interval of 95 %, repetition included; null: not known, as the error of measurement is not. */
+  low: number | null;
+  high: number | null;
   /** The interval by measurement alone; null: not known. */
   low_measured: number | null;
   high_measured: number | null;

@@ -50,6 +50,10 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
 /// vertices; empty if it has neither.
 render::VertexColours picture_colours(const io::Scan& scan);
 
+/// What pictures of the landmarks must show, m: the face's points, and the scan above them up to 60
+/// mm, where the forehead ends, no wider or deeper than they are.
+Points pictured_points(const TriMesh& scan, const ScanLandmarks& found);
+
 /// Draws the scan from the front and from both sides, with the landmarks marked.
 render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const ScanLandmarks& found, const std::string& title);

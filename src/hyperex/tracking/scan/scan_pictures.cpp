@@ -37,6 +37,23 @@ render::VertexColours picture_colours(const io::Scan& scan) {
   return {};
 }
 
+Points pictured_points(const TriMesh& scan, const ScanLandmarks& found) {
+  constexpr double above_m = 0.06;
+  const Eigen::Matrix3d& scan_from_face = found.scan_from_canonical.rotation;
+  const Points face = found.face_points * scan_from_face, all = scan.points * scan_from_face;
+  const Eigen::Array3d low = face.colwise().minCoeff().transpose().array(),
+                       high = face.colwise().maxCoeff().transpose().array();
+  const Eigen::Array3d most = high + Eigen::Array3d(0, above_m, 0);
+  std::vector<Eigen::Index> forehead;
+  for (Eigen::Index v = 0; v < all.rows(); ++v) {
+    const Eigen::Array3d at = all.row(v).transpose().array();
+    if (at.y() > high.y() && (at >= low).all() && (at <= most).all()) forehead.push_back(v);
+  }
+  Points out(found.face_points.rows() + Eigen::Index(forehead.size()), 3);
+  out << found.face_points, scan.points(forehead, Eigen::all);
+  return out;
+}
+
 render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const ScanLandmarks& found, const std::string& title) {
   std::vector<render::Marker> markers;
@@ -48,14 +65,15 @@ render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColou
   const render::RenderOptions size{.width_px = 520, .height_px = 640};
   render::ContactSheet sheet{
       .title = title, .note = "blue: the 68 iBUG points; red: anatomical landmarks", .columns = 3};
+  const Points pictured = pictured_points(scan, found);
   constexpr double turn = 0.75;
   for (const auto& [yaw, caption] :
        {std::pair{-turn, "from the subject's right"}, std::pair{0.0, "front"},
         std::pair{turn, "from the subject's left"}}) {
     const Vec3 side(std::sin(yaw), 0, std::cos(yaw));
     const render::Camera camera =
-        render::framing(found.face_points, scan_from_face * side,
-                        double(size.width_px) / size.height_px, scan_from_face.col(1), 0.1);
+        render::framing(pictured, scan_from_face * side, double(size.width_px) / size.height_px,
+                        scan_from_face.col(1), 0.1);
     sheet.pictures.push_back(
         {render::render({{.mesh = scan, .colours = colours}}, camera, size, markers), caption,
          render::side_marks(camera, scan_from_face.col(0))});

@@ -162,13 +162,28 @@ export function colouringsOf(replay: Replay): Colouring[] {
   ];
 }
 
-/** Places along the bar, 0 to 1, and their values: round ones where few even steps make them. */
-export function ticksOf({ least, greatest }: Scale): { share: number; text: string }[] {
+interface Tick {
+  share: number;
+  text: string;
+}
+
+/** Whether the texts have room on a bar as wide as 21 characters: the first begins and the last ends with the bar, the
+ *  others are centred. Of seven, each other one is shown. */
+function haveRoom(ticks: Tick[]): boolean {
+  const width = 21;
+  const shown = ticks.length === 7 ? ticks.filter((_, i) => i % 2 === 0) : ticks;
+  const starts = shown.map(({ share, text }, i) => share * width - text.length * (i === 0 ? 0 : i === shown.length - 1 ? 1 : 0.5));
+  return shown.every((_, i) => i === 0 || starts[i] >= starts[i - 1] + shown[i - 1].text.length + 0.5);
+}
+
+/** Places along the bar, 0 to 1, and their values: round ones where few even steps make them, and no more than have
+ *  room. */
+export function ticksOf({ least, greatest }: Scale): Tick[] {
   const range = greatest - least;
   const round = (step: number) => [1, 2, 5].includes(Number(step.toExponential(6).split('e')[0]));
-  const count = [5, 4, 6, 3].find((n) => round(range / n)) ?? 4;
-  return Array.from({ length: count + 1 }, (_, i) => {
+  const ticks = (count: number): Tick[] => Array.from({ length: count + 1 }, (_, i) => {
     const share = i / count;
     return { share, text: number(Number((least + share * range).toPrecision(4))) };
   });
+  return [...[5, 4, 6, 3].filter((n) => round(range / n)), 4, 2].map(ticks).find(haveRoom) ?? ticks(1);
 }
