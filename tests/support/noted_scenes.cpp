@@ -90,6 +90,14 @@ void let_a_marker_jump_slowly(const fs::path& folder) {
   });
 }
 
+/// Ten samples a second; whether it comes back is not seen.
+void let_a_marker_jump_in_the_end(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (double& time_s : m.time_s) time_s *= 3;
+    m.positions[15](m.index_of("cheilion_L"), 2) += 0.03;
+  });
+}
+
 void let_a_marker_drift(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (std::size_t k = 0; k < m.positions.size(); ++k)
@@ -214,6 +222,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.jumps", true, "", let_a_marker_stay_away},
       {"recording.zeros", true, "", lose_a_marker},
       {"recording.lone_samples", true, "", let_a_marker_jump_slowly},
+      {"recording.end_samples", true, "", let_a_marker_jump_in_the_end},
       {"recording.far_points", true, "", let_a_marker_drift},
       {"recording.wild_weights", true, "motion.file=\nmotion.arkit=\"spike.csv\"",
        let_a_weight_jump},
@@ -284,6 +293,7 @@ const std::vector<NotedScene>& noted_scenes() {
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
       {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
+      {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };
   return all;

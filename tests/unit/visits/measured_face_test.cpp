@@ -123,6 +123,28 @@ TEST(MeasuredFace, AnotherSizeIsRemarked) {
   EXPECT_THAT(second.remarks[0], HasSubstr("may not be comparable"));
 }
 
+TEST(MeasuredFace, AnotherScaleIsRemarkedWithBothFilesAndTheRatio) {
+  // Points without names of landmarks, those of a headband among them, show the scale as well.
+  const auto of_own_names = [](double scale, const std::string& file) {
+    motion::Motion m = recording_of({});
+    m.source = "/home/doctor/Jane Doe/" + file;
+    for (std::size_t p = 0; p < m.names.size(); ++p)
+      if (p < 48) m.names[p] = "head_" + std::to_string(p);
+    for (Points& at : m.positions) at *= scale;
+    return m;
+  };
+  const auto remarks = [&](double scale) {
+    const MeasuredFace first = measure(of_own_names(1, "before.csv"), visits_of(2), 0.0, nullptr);
+    return measure(of_own_names(scale, "after.csv"), visits_of(2), 0.0, &first).remarks;
+  };
+  for (const auto& [scale, words] : {std::pair{0.1, "0.1 times"}, {1.08, "1.08 times"}})
+    EXPECT_THAT(remarks(scale), testing::Contains(testing::AllOf(
+                                    HasSubstr("after.csv: the face at rest is "), HasSubstr(words),
+                                    HasSubstr("as large as in before.csv, by "))));
+  for (const double scale : {0.96, 1.0, 1.04})
+    EXPECT_THAT(remarks(scale), testing::Not(testing::Contains(HasSubstr("as large as")))) << scale;
+}
+
 TEST(MeasuredFace, NeedsThePointsOfTheExpression) {
   VisitsFile file = visits_of(1);
   motion::Motion few = recording_of({});
