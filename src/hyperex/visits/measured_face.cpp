@@ -241,11 +241,11 @@ void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
 /// Whether the faces of both recordings are of one size; else a remark names both.
 bool have_one_scale(const MeasuredFace& first, MeasuredFace& face) {
   const ScaleBetween scale = scale_between(first.rest, face.rest);
-  if (!(std::abs(scale.ratio - 1) > kScalesDiffer)) return true;
+  if (!(std::abs(scale.ratio - 1) > scale.bound)) return true;
   face.remarks.push_back(fmt::format(
       "{}: the face at rest is {:.3g} times as large as in {}, by {} points that both measure "
-      "(expected: 1, to within {:g} %): lengths are not comparable; check the units of both",
-      face.file, scale.ratio, first.file, scale.common, 100 * kScalesDiffer));
+      "(expected: 1, to within {:.2g} %): lengths are not comparable; check the units of both",
+      face.file, scale.ratio, first.file, scale.common, 100 * scale.bound));
   return false;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/visits/scale_between.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
@@ -28,10 +29,12 @@ ScaleBetween scale_between(const std::map<std::string, Vec3>& first,
       there.push_back(place);
       here.push_back(at->second);
     }
-  ScaleBetween out{std::numeric_limits<double>::quiet_NaN(), there.size()};
+  ScaleBetween out{std::numeric_limits<double>::quiet_NaN(), there.size(), kScalesDiffer};
   if (there.size() < least_points) return out;
   const double spread_m = rms_from_mean(there);
-  if (spread_m >= least_spread_m) out.ratio = rms_from_mean(here) / spread_m;
+  if (spread_m < least_spread_m) return out;
+  out.ratio = rms_from_mean(here) / spread_m;
+  out.bound = std::max(kScalesDiffer, kSpreadsDiffer_m / spread_m);
   return out;
 }
 

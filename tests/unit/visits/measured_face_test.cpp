@@ -4,10 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/visits/scale_between.hpp"
 #include "smiling_face.hpp"
 
 namespace hyperex::visits {
@@ -143,6 +147,24 @@ TEST(MeasuredFace, AnotherScaleIsRemarkedWithBothFilesAndTheRatio) {
                                     HasSubstr("as large as in before.csv, by "))));
   for (const double scale : {0.96, 1.0, 1.04})
     EXPECT_THAT(remarks(scale), testing::Not(testing::Contains(HasSubstr("as large as")))) << scale;
+}
+
+TEST(ScaleBetween, AllowsMoreForAMouthAlone) {
+  const auto square = [](double half_m) {
+    std::map<std::string, Vec3> places;
+    for (int k = 0; k < 4; ++k)
+      places["p" + std::to_string(k)] = Vec3(k % 2 ? half_m : -half_m, k / 2 ? half_m : -half_m, 0);
+    return places;
+  };
+  const ScaleBetween face = scale_between(square(0.1), square(0.09));
+  EXPECT_NEAR(face.ratio, 0.9, 1e-12);
+  EXPECT_EQ(face.common, 4u);
+  EXPECT_EQ(face.bound, 0.06);
+  EXPECT_NEAR(scale_between(square(0.025 / std::sqrt(2.0)), square(0.1)).bound, 0.12, 1e-12);
+  std::map<std::string, Vec3> three = square(0.1);
+  three.erase("p3");
+  EXPECT_TRUE(std::isnan(scale_between(three, square(0.1)).ratio));
+  EXPECT_TRUE(std::isnan(scale_between(square(0), square(0.1)).ratio));
 }
 
 TEST(MeasuredFace, NeedsThePointsOfTheExpression) {
