@@ -293,6 +293,7 @@ const std::vector<NotedScene>& noted_scenes() {
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
       {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
+      {"sides.doubtful", "CheckAlone.SidesThatAreExchangedLessSurelyAreAWarning"},
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };

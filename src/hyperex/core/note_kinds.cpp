@@ -80,6 +80,9 @@ constexpr NoteKind kKinds[] = {
     "people place differently, and where fewer than 20 points are common."),
   warning("time.beyond_recording", "time.end_s",
     "The run ends more than 1 s after the recording: the face is held as its last sample shows it."),
+  warning("sides.doubtful", "motion.file",
+    "The points fit the face better with left and right exchanged, but not well enough to refuse "
+    "the recording."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
     "refused."),

@@ -86,6 +86,7 @@ std::vector<Note> check_alone(const motion::Motion& m) {
   std::vector<Note> warnings;
   const motion::Motion sample = fullest_sample(m);
   check_sides(sample, average_face());
+  add(warnings, sides_warning(sample, average_face()));
   add(warnings, exchanged_warning(sample, average_face()));
   add(warnings, size_warning_of(sample));
   add(warnings, timing_warning(m));

@@ -27,6 +27,10 @@ FaceAtRest average_face();
 /// half of that with its points mirrored.
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
+/// `sides.doubtful`: the same fit is more than 5 mm and, with the points mirrored, less than 0.7 of
+/// that, but check_sides does not refuse it. Nothing where it does.
+std::optional<Note> sides_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+
 /// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
 /// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
 /// else 10 mm. `of_a_model`: the points are of an average face that expressions move; 10 mm.

@@ -90,6 +90,15 @@ TEST(CheckAlone, ExchangedSidesAreRefusedByThePointsOfTheMouth) {
       AllOf(HasSubstr("alone.csv: left and right are exchanged"), HasSubstr("an average face")));
 }
 
+TEST(CheckAlone, SidesThatAreExchangedLessSurelyAreAWarning) {
+  motion::Motion m = still_points_of(average_face().landmarks);
+  for (Points& sample : m.positions) sample(0, 2) += 0.02;  // a corner of the mouth
+  EXPECT_THAT(check_alone(m), IsEmpty());
+  EXPECT_THAT(check_alone(exchanged_names(m)),
+              ElementsAre(AllOf(is_warning("sides.doubtful"), is_about("motion.file"),
+                                says("7.7 mm rms"), says("4.9 mm with one axis negated"))));
+}
+
 TEST(CheckAlone, TheFirstSampleWithTheMostPointsIsJudged) {
   motion::Motion m = still_points_of(average_face().landmarks);
   m.positions[0].topRows(5).setConstant(std::numeric_limits<double>::quiet_NaN());
