@@ -32,6 +32,7 @@
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/run/corner_words.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
@@ -107,6 +108,11 @@ void warn_of_unknown(const session::RecordedJitter& jitter) {
         "{}; how much of a difference between the sides is noise is not known; --jitter-mm X "
         "states the jitter, 0 for exact points",
         jitter.how);
+}
+
+void report_guessed_unit(const motion::Motion& motion) {
+  if (const std::string unit = session::guessed_unit(motion); !unit.empty())
+    std::cerr << "motion: " << unit << "; --unit states it\n";
 }
 
 /// Says which points hold the head's pose, as the user did not name them.
@@ -287,15 +293,15 @@ void run(const SymmetryOptions& options) {
                                   "a folder of surfaces; points alone have no map"});
   auto [motion, warnings] = session::cleaned_recording(
       motion::until(read(options, file, unit), options.end_s, "--end-s"));
+  report_guessed_unit(motion);
+  const std::vector<Note> checked = session::check_alone(motion);
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
   if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady));
-  for (const auto& warning : {session::coarse_warning(motion),
-                              session::exchanged_warning(motion, session::average_face()),
-                              session::timing_warning(motion)})
-    add(warnings, warning);
+  add(warnings, session::coarse_warning(motion));
+  append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
   warn_of_unknown(jitter);

@@ -197,6 +197,52 @@ TEST_F(Plausible, SymmetryMendsAReadingThatJumpsAndNamesThoseThatStayAway) {
   EXPECT_NEAR(excursion_mm("mended.csv"), excursion_mm("sound.csv"), 0.5);
 }
 
+TEST_F(Plausible, SymmetryLeavesOutAWildReadingAtTheEnd) {
+  write_motion(0, 16,
+               [](motion::Motion& m) { m.positions[15](m.index_of("cheilion_L"), 2) += 0.012; });
+  const Outcome mended = call("symmetry motion.csv --jitter-mm 0 --excursions e.csv");
+  EXPECT_EQ(mended.status, 0) << mended.err;
+  EXPECT_THAT(mended.err, AllOf(HasSubstr("1 such reading was left out"),
+                                HasSubstr("motion.csv:17, point cheilion_L at 0.5")));
+}
+
+TEST_F(Plausible, SymmetrySaysTheUnitItGuessedAndWhatNoFaceMeasures) {
+  const auto scaled = [&](double scale) {
+    write_motion(0, 16, [&](motion::Motion& m) {
+      keep_mouth_and_headband(m);
+      for (Points& sample : m.positions) sample *= scale;
+    });
+  };
+  const std::string symmetry = "symmetry motion.csv --jitter-mm 0";
+  scaled(1);
+  const std::string sound = call(symmetry).err;
+  EXPECT_THAT(sound, AllOf(Not(HasSubstr("guessed")), Not(HasSubstr("size of a face"))));
+  scaled(0.1);
+  EXPECT_THAT(call(symmetry).err,
+              AllOf(HasSubstr("warning: the recording has not the size of a face"),
+                    HasSubstr("as if in cm, and were read as mm")));
+  scaled(1 / 25.4);  // inches, without a unit in the names
+  std::string table = read_file(in("motion.csv"));
+  for (auto at = table.find("_mm"); at != std::string::npos; at = table.find("_mm"))
+    table.erase(at, 3);
+  put(in("motion.csv"), table);
+  EXPECT_THAT(call(symmetry).err,
+              AllOf(HasSubstr("motion: cm (guessed: the points then span"),
+                    HasSubstr("--unit states it"), HasSubstr("as if in inches")));
+}
+
+TEST_F(Plausible, SymmetryRefusesExchangedSidesAsCheckDoes) {
+  write_motion(0, 16, [](motion::Motion& m) {
+    keep_mouth_and_headband(m);
+    for (const auto& [a, b] : {std::pair{"ibug68_48", "ibug68_54"}, {"ibug68_58", "ibug68_56"}})
+      std::swap(m.names[std::size_t(m.index_of(a))], m.names[std::size_t(m.index_of(b))]);
+  });
+  const Outcome exchanged = call("symmetry motion.csv --out s.csv");
+  EXPECT_EQ(exchanged.status, 2);
+  EXPECT_THAT(exchanged.err, HasSubstr("motion.csv: left and right are exchanged"));
+  EXPECT_FALSE(fs::exists(in("s.csv")));
+}
+
 TEST_F(Plausible, SymmetryRefusesWhatNoFaceCanReachWithTheHeadToo) {
   for (const double off_m : {0.3, 1e3}) {
     write_motion(0, 16, [&](motion::Motion& m) {

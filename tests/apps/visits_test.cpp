@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "apps/malformed.hpp"
+#include "hyperex/face/canonical_face.hpp"
 #include "hyperex/io/text_table.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -131,6 +132,23 @@ TEST_F(Visits, MatchPointsByTheirPlaceWhereRecordingsNameThemDifferently) {
   const Outcome named = call("visits v.toml --table named.csv");
   ASSERT_EQ(named.status, 0) << named.err;
   EXPECT_EQ(read_file(in("found.csv")), read_file(in("named.csv")));
+}
+
+TEST_F(Visits, WarnOfAnotherScaleAndRefuseExchangedSides) {
+  motion::Motion after = motion::read_motion(in("after.csv"));
+  for (Points& at : after.positions) at *= 0.4;
+  motion::write_motion_csv(in("after.csv"), after);
+  const Outcome small = call("visits v.toml");
+  EXPECT_EQ(small.status, 0) << small.err;
+  EXPECT_THAT(small.err,
+              testing::AllOf(HasSubstr("after.csv: the face at rest is 0.4 times as large as in "
+                                       "before.csv"),
+                             HasSubstr("the recording has not the size of a face")));
+  for (std::string& name : after.names) name = face::mirrored_landmark(name);
+  motion::write_motion_csv(in("after.csv"), after);
+  const Outcome exchanged = call("visits v.toml");
+  EXPECT_EQ(exchanged.status, 2);
+  EXPECT_THAT(exchanged.err, HasSubstr("after.csv: left and right are exchanged"));
 }
 
 TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {

@@ -98,6 +98,14 @@ void lose_a_marker_and_hold_it(const fs::path& folder) {
   });
 }
 
+/// Ten samples a second; whether it comes back is not seen.
+void let_a_marker_jump_in_the_end(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    for (double& time_s : m.time_s) time_s *= 3;
+    m.positions[15](m.index_of("cheilion_L"), 2) += 0.03;
+  });
+}
+
 void let_a_marker_drift(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (std::size_t k = 0; k < m.positions.size(); ++k)
@@ -223,6 +231,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.zeros", true, "", lose_a_marker},
       {"recording.lone_samples", true, "", let_a_marker_jump_slowly},
       {"recording.held_points", true, "", lose_a_marker_and_hold_it},
+      {"recording.end_samples", true, "", let_a_marker_jump_in_the_end},
       {"recording.far_points", true, "", let_a_marker_drift},
       {"recording.wild_weights", true, "motion.file=\nmotion.arkit=\"spike.csv\"",
        let_a_weight_jump},
@@ -293,6 +302,8 @@ const std::vector<NotedScene>& noted_scenes() {
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
       {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
+      {"sides.doubtful", "CheckAlone.SidesThatAreExchangedLessSurelyAreAWarning"},
+      {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };
   return all;

@@ -31,8 +31,8 @@ constexpr NoteKind kKinds[] = {
   warning("recording.wild_samples", "motion.file",
     "A point jumps away and comes back within one or two samples, by more than 20 mm and faster "
     "than 0.6 m/s. At 24 samples a second and more, 6 mm in one reading count while the points "
-    "beside it stay. So do 5 mm for up to 0.2 s, and two points that exchange their places. The "
-    "readings were left out and interpolated."),
+    "beside it stay. So do 5 mm for up to 0.2 s, two points that exchange their places, and up to "
+    "0.1 s at an end above 6 mm and 0.3 m/s. The readings were left out and interpolated."),
   warning("recording.zeros", "motion.file",
     "Readings of (0, 0, 0) of a point that is never within 20 mm of there otherwise: some systems "
     "write this for a marker that they do not see. They were taken as missing."),
@@ -47,6 +47,10 @@ constexpr NoteKind kKinds[] = {
     "A point has equal readings for at least 0.2 s while three of the four points beside it move by "
     "1 mm or more, and moves at other times. The system lost this marker and held it; the readings "
     "were kept."),
+  warning("recording.end_samples", "motion.file",
+    "A point jumps at an end of the recording while the points beside it stay. At 24 samples a "
+    "second and more 8 mm count, in slower recordings 20 mm. No way back is seen, so that it may be "
+    "a movement: the readings were kept."),
   warning("recording.far_points", "motion.file",
     "A point goes farther from its first place than this part of a face can: corners of the mouth "
     "38 mm, upper lip 30, brows 25, nose and eyes 20, lower lip and chin 75."),
@@ -68,6 +72,9 @@ constexpr NoteKind kKinds[] = {
     "The samples are more than 0.1 s apart: a curve through them may go beyond them."),
   warning("recording.shapes_lost", "motion.arkit",
     "A blend shape that the face model does not have reaches a weight above 0.3."),
+  warning("recording.size_implausible", "motion.unit",
+    "Without a scan's landmarks: the points lie less than 0.5 or more than 1.8 times as far apart "
+    "as on an average face. The unit is probably another."),
   warning("recording.fits_badly", "motion.unit",
     "After alignment the common points are more than 10 mm rms apart, 5 mm where there are at least "
     "20, or the scale is outside 0.95 to 1.05. For points from a camera or a model of a face 0.8 to "
@@ -78,6 +85,9 @@ constexpr NoteKind kKinds[] = {
     "people place differently, and where fewer than 20 points are common."),
   warning("time.beyond_recording", "time.end_s",
     "The run ends more than 1 s after the recording: the face is held as its last sample shows it."),
+  warning("sides.doubtful", "motion.file",
+    "The points fit the face better with left and right exchanged, but not well enough to refuse "
+    "the recording."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
     "refused."),

@@ -13,15 +13,6 @@
 namespace hyperex::motion {
 namespace {
 
-/// A lid closes and opens within 0.2 s, by up to 12 mm.
-bool is_of_lid(const std::string& name) {
-  if (const auto k = face::ibug_number_of_place(name))
-    return *k >= 36 && *k <= 47 && *k % 3 != 0;  // 36, 39, 42 and 45 are the corners
-  const std::string lower = lower_case(name);
-  const auto has = [&](const char* part) { return lower.find(part) != std::string::npos; };
-  return has("lid") || (has("eye") && !has("brow"));
-}
-
 /// The point with which this one exchanges its place; -1 where there is none.
 Eigen::Index exchanged_with(const std::vector<Points>& at, const BriefStay& brief) {
   const auto& [before, after, step_m] = brief.stay;
@@ -45,6 +36,14 @@ bool is_joined_by_others(const std::vector<Points>& at, const BriefStay& brief, 
 }
 
 }  // namespace
+
+bool is_of_lid(const std::string& name) {
+  if (const auto k = face::ibug_number_of_place(name))
+    return *k >= 36 && *k <= 47 && *k % 3 != 0;  // 36, 39, 42 and 45 are the corners
+  const std::string lower = lower_case(name);
+  const auto has = [&](const char* part) { return lower.find(part) != std::string::npos; };
+  return has("lid") || (has("eye") && !has("brow"));
+}
 
 Path path_of(const std::vector<Points>& at, Eigen::Index point) {
   return [&at, point](std::size_t k) -> Eigen::RowVector3d { return at[k].row(point); };

@@ -38,6 +38,10 @@ inline constexpr double kStayJump_m = 0.005;
 std::vector<BriefStay> brief_stays(const std::vector<Points>& at, const std::vector<double>& time_s,
                                    const std::vector<std::string>& names);
 
+/// Whether a point is of an eyelid, by its name. A lid closes and opens within 0.2 s, by up to 12
+/// mm.
+bool is_of_lid(const std::string& name);
+
 /// The path of a point of `at`, which must outlive it.
 Path path_of(const std::vector<Points>& at, Eigen::Index point);
 

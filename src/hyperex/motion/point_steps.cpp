@@ -25,6 +25,14 @@ double usual_bend_m(const std::vector<Points>& at, Eigen::Index p) {
   return all.empty() ? std::numeric_limits<double>::infinity() : median(std::move(all));
 }
 
+double usual_bend_without_m(const std::vector<Points>& at, std::size_t k, Eigen::Index p) {
+  std::vector<double> others;
+  for (std::size_t i = 1; i + 1 < at.size(); ++i)
+    if (const double bend = bend_m(at, i, p); (i + 1 < k || i > k + 1) && std::isfinite(bend))
+      others.push_back(bend);
+  return others.empty() ? 0 : median(std::move(others));
+}
+
 std::vector<Eigen::Index> points_beside(const Points& at, Eigen::Index p) {
   constexpr std::size_t most = 4;
   std::vector<std::pair<double, Eigen::Index>> far;

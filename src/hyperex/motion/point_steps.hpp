@@ -19,6 +19,10 @@ double bend_m(const std::vector<Points>& at, std::size_t k, Eigen::Index p);
 /// exceeds it.
 double usual_bend_m(const std::vector<Points>& at, Eigen::Index p);
 
+/// The median of bend_m over all samples but k and those beside it, whose bends contain reading k;
+/// 0 where it is known in none of them.
+double usual_bend_without_m(const std::vector<Points>& at, std::size_t k, Eigen::Index p);
+
 /// The rows of the four points nearest to this one in a sample, nearest first; fewer where fewer
 /// are measured, none where the point itself is not.
 std::vector<Eigen::Index> points_beside(const Points& at, Eigen::Index p);

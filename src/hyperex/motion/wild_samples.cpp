@@ -11,6 +11,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/motion/brief_stays.hpp"
+#include "hyperex/motion/end_stays.hpp"
 #include "hyperex/motion/point_steps.hpp"
 
 namespace hyperex::motion {
@@ -154,7 +155,7 @@ std::vector<WildSample> lone_readings(const Motion& m, const std::vector<Points>
   for (std::size_t k = 1; k + 1 < at.size(); ++k)
     for (Eigen::Index p = 0; p < at[k].rows(); ++p)
       if (goes_and_returns(at, k, p, least_m) && !is_joined(at, k, p) &&
-          bend_m(at, k, p) > 8 * usual_bend_m(at, p))
+          bend_m(at, k, p) > 8 * usual_bend_without_m(at, k, p))
         lone.push_back({m.names[std::size_t(p)], k, bend_m(at, k, p)});
   return lone;
 }
@@ -202,6 +203,33 @@ std::vector<WildSample> mend_lone_and_stays(MendedMotion& out) {
   return kept;
 }
 
+/// Mends or names what is away at the ends of a recording. `kept`: the ways there and back of stays
+/// that are kept; a way back is none away.
+void settle_ends(double step_s, const std::vector<WildSample>& kept, MendedMotion& out) {
+  const Motion& m = out.motion;
+  const bool slow = step_s > kSlowStep_s;
+  const EndRule rule = slow ? EndRule{kWildJump_m, std::numeric_limits<double>::infinity(), 0}
+                            : EndRule{kLoneJump_m, kSlowStep_s, kLongestEnd_s};
+  std::vector<WildSample> found;
+  for (const EndStay& stay : end_stays(without_shift(m), m.time_s, m.names, rule)) {
+    const std::string& name = m.names[std::size_t(stay.point)];
+    if (std::ranges::any_of(kept, [&](const WildSample& way) {
+          return way.sample == stay.jump && way.point == name;
+        }))
+      continue;
+    const bool mended = !slow && stay.speed_m_s > kFastest_m_s &&
+                        stay.lasts_s <= kLongestMendedEnd_s + kStaySlack_s;
+    // Those that are faster than any face are among the jumps.
+    if (!mended && (stay.step_m <= kNamedEnd_m || stay.step_m > implausible_m(step_s))) continue;
+    for (const std::size_t k : stay.samples)
+      (mended ? found : out.ends).push_back({name, k, stay.step_m});
+  }
+  mend(found, out.motion);
+  out.wild.insert(out.wild.end(), found.begin(), found.end());
+  for (auto* readings : {&out.wild, &out.ends})
+    std::ranges::stable_sort(*readings, {}, &WildSample::sample);
+}
+
 /// Adds those that are not among the jumps already.
 void add_jumps(const std::vector<WildSample>& more, std::vector<WildSample>& jumps) {
   for (const WildSample& one : more)
@@ -238,7 +266,8 @@ std::string place_of(const Motion& motion, const std::string& point, std::size_t
 }
 
 MendedMotion without_wild_samples(const Motion& motion) {
-  MendedMotion out{motion, {}, {}, {}, {}, {}};
+  MendedMotion out;
+  out.motion = motion;
   if (motion.names.size() < 3) return out;
   out.zeros = without_zeros(out.motion);
   out.held = held_readings(out.motion);
@@ -254,6 +283,7 @@ MendedMotion without_wild_samples(const Motion& motion) {
     kept = mend_lone_and_stays(out);
   else
     out.lone = lone_readings(out.motion, without_shift(out.motion), kWildJump_m);
+  settle_ends(step_s, kept, out);
   out.jumps = jumps_of(out.motion);
   add_jumps(kept, out.jumps);
   return out;

@@ -16,7 +16,8 @@ motion::MendedMotion only_reported(motion::MendedMotion mended, const motion::Mo
   std::erase_if(mended.jumps,
                 [](const motion::WildSample& jump) { return jump.off_m <= motion::kWildJump_m; });
   std::ranges::stable_sort(mended.jumps, {}, &motion::WildSample::sample);
-  for (auto* readings : {&mended.wild, &mended.zeros, &mended.lone}) readings->clear();
+  for (auto* readings : {&mended.wild, &mended.zeros, &mended.lone, &mended.ends})
+    readings->clear();
   mended.held.clear();
   mended.motion = recorded;
   return mended;

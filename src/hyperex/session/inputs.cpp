@@ -133,6 +133,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
                      const motion::Motion& steady, Inputs& in) {
   const FaceAtRest at_rest{in.landmarks, "the scan"};
   check_sides(steady, at_rest);
+  add(in.notes, sides_warning(steady, at_rest));
   in.motion = simulate::align(steady, in.landmarks, scene.alignment.method);
   if (of_weights(scene)) simulate::match_lid_apertures(in.motion, steady);
   in.jitter_m *= in.motion.scan_from_motion.scale;

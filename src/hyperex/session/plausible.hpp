@@ -27,6 +27,10 @@ FaceAtRest average_face();
 /// half of that with its points mirrored.
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
+/// `sides.doubtful`: the same fit is more than 5 mm and, with the points mirrored, less than 0.7 of
+/// that, but check_sides does not refuse it. Nothing where it does.
+std::optional<Note> sides_warning(const motion::Motion& stabilised, const FaceAtRest& face);
+
 /// Whose points a recording has.
 enum class PointsOf {
   person,  ///< measured, in lengths that are known

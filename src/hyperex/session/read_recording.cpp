@@ -20,6 +20,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/recording_file.hpp"
+#include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -262,9 +263,11 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const FaceAtRest average = average_face();
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
+  add(in.notes, sides_warning(m, average));
   if (whole) {
     add(in.notes, start_warning(m, average, of_weights(scene)));
     add(in.notes, exchanged_warning(m, average));
+    if (!of_weights(scene)) add(in.notes, size_warning(m));
   }
   in.notes.push_back(
       whole ? make_note(

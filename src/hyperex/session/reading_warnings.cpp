@@ -64,9 +64,10 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
           make_warning(id, fmt::format("{}: {}", what, first_readings(mended.motion, readings))));
   };
   add("recording.wild_samples", mended.wild,
-      fmt::format("a point jumps away and back, which no face does; {} such reading{} left out and "
-                  "interpolated",
-                  mended.wild.size(), mended.wild.size() > 1 ? "s were" : " was"));
+      fmt::format(
+          "a point jumps away and back, or away at an end of the recording, which no face does; {} "
+          "such reading{} left out and interpolated",
+          mended.wild.size(), mended.wild.size() > 1 ? "s were" : " was"));
   add("recording.zeros", mended.zeros,
       fmt::format("{} reading{} of (0, 0, 0) {} taken as missing, as the point is never near there "
                   "otherwise",
@@ -85,6 +86,9 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
                     "marker does that was lost; kept as it is, so correct its readings or leave "
                     "their cells empty: {}",
                     first_held(mended.motion, mended.held))));
+  add("recording.end_samples", mended.ends,
+      "cannot tell whether a point that jumps at an end of the recording is read wrongly or moves "
+      "like that; kept, so look at it, and leave its cells empty if it is wrong");
   return notes;
 }
 

@@ -17,8 +17,10 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
+#include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
+#include "hyperex/visits/scale_between.hpp"
 
 namespace hyperex::visits {
 namespace fs = std::filesystem;
@@ -240,9 +242,21 @@ void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
   }
 }
 
+/// Whether the faces of both recordings are of one size; else a remark names both.
+bool have_one_scale(const MeasuredFace& first, MeasuredFace& face) {
+  const ScaleBetween scale = scale_between(first.rest, face.rest);
+  if (!(std::abs(scale.ratio - 1) > scale.bound)) return true;
+  face.remarks.push_back(fmt::format(
+      "{}: the face at rest is {:.3g} times as large as in {}, by {} points that both measure "
+      "(expected: 1, to within {:.2g} %): lengths are not comparable; check the units of both",
+      face.file, scale.ratio, first.file, scale.common, 100 * scale.bound));
+  return false;
+}
+
 void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFace& face) {
   constexpr double kLargestShare = 0.03;
-  if (!first || !(std::abs(face.eye_distance_m / first->eye_distance_m - 1) > kLargestShare))
+  if (!first || !have_one_scale(*first, face) ||
+      !(std::abs(face.eye_distance_m / first->eye_distance_m - 1) > kLargestShare))
     return;
   face.remarks.push_back(fmt::format(
       "{}: the outer corners of the eyes are {:.1f} mm apart and {:.1f} mm at the first "
@@ -257,6 +271,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      const std::vector<std::string>& still_points) {
   MeasuredFace face;
   const fs::path name = motion::named(motion);
+  face.file = name.filename().string();
   const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
@@ -286,20 +301,21 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
 
 session::CleanedRecording read_recording(const fs::path& recording, const VisitEntry& visit,
                                          const VisitsFile& visits) {
-  return session::cleaned_recording(
+  session::CleanedRecording cleaned = session::cleaned_recording(
       motion::until(motion::read_motion(recording, visits.unit), visit.end_s, "end_s"));
+  append(cleaned.warnings, session::check_alone(cleaned.motion));
+  return cleaned;
 }
 
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
                                const std::vector<std::string>& still_points) {
   const motion::Motion& motion = recording.motion;
-  std::vector<Note> warnings = recording.warnings;
   MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points);
-  for (const auto& warning : {session::exchanged_warning(motion, session::average_face()),
-                              session::timing_warning(motion)})
-    add(warnings, warning);
-  for (const Note& warning : warnings)
+  if (const std::string unit = session::guessed_unit(motion); !unit.empty())
+    face.remarks.push_back(
+        fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));
+  for (const Note& warning : recording.warnings)
     face.remarks.push_back(with_file_name(warning.text, motion.source));
   return face;
 }

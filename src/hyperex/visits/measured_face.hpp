@@ -15,6 +15,7 @@ namespace hyperex::visits {
 /// One recording, reduced to the face at rest and at the peak of the expression, with the errors of
 /// both.
 struct MeasuredFace {
+  std::string file;  ///< its name without folders
   FaceState state;
   std::map<std::string, Vec3> rest, peak;  ///< all points that are measured, m, without head pose
   double peak_s = 0;                       ///< from the first sample
@@ -52,8 +53,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
                      const std::vector<std::string>& still_points = {});
 
-/// Reads a recording of a visit (motion::read_motion) and cleans it
-/// (session::cleaned_recording). Throws InputError.
+/// Reads a recording of a visit (motion::read_motion), cleans it (session::cleaned_recording) and
+/// checks it by itself (session::check_alone). Throws InputError.
 session::CleanedRecording read_recording(const std::filesystem::path& recording,
                                          const VisitEntry& visit, const VisitsFile& visits);
 

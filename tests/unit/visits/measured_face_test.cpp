@@ -4,10 +4,14 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <map>
 #include <numbers>
+#include <string>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/visits/scale_between.hpp"
 #include "smiling_face.hpp"
 
 namespace hyperex::visits {
@@ -121,6 +125,46 @@ TEST(MeasuredFace, AnotherSizeIsRemarked) {
   const MeasuredFace second = measure(larger, visits_of(2), 0.0, &first);
   ASSERT_EQ(second.remarks.size(), 1u);
   EXPECT_THAT(second.remarks[0], HasSubstr("may not be comparable"));
+}
+
+TEST(MeasuredFace, AnotherScaleIsRemarkedWithBothFilesAndTheRatio) {
+  // Points without names of landmarks, those of a headband among them, show the scale as well.
+  const auto of_own_names = [](double scale, const std::string& file) {
+    motion::Motion m = recording_of({});
+    m.source = "/home/doctor/Jane Doe/" + file;
+    for (std::size_t p = 0; p < m.names.size(); ++p)
+      if (p < 48) m.names[p] = "head_" + std::to_string(p);
+    for (Points& at : m.positions) at *= scale;
+    return m;
+  };
+  const auto remarks = [&](double scale) {
+    const MeasuredFace first = measure(of_own_names(1, "before.csv"), visits_of(2), 0.0, nullptr);
+    return measure(of_own_names(scale, "after.csv"), visits_of(2), 0.0, &first).remarks;
+  };
+  for (const auto& [scale, words] : {std::pair{0.1, "0.1 times"}, {1.08, "1.08 times"}})
+    EXPECT_THAT(remarks(scale), testing::Contains(testing::AllOf(
+                                    HasSubstr("after.csv: the face at rest is "), HasSubstr(words),
+                                    HasSubstr("as large as in before.csv, by "))));
+  for (const double scale : {0.96, 1.0, 1.04})
+    EXPECT_THAT(remarks(scale), testing::Not(testing::Contains(HasSubstr("as large as")))) << scale;
+}
+
+TEST(ScaleBetween, AllowsMoreForAMouthAlone) {
+  const auto square = [](double half_m) {
+    std::map<std::string, Vec3> places;
+    for (int k = 0; k < 4; ++k)
+      places["p" + std::to_string(k)] = Vec3(k % 2 ? half_m : -half_m, k / 2 ? half_m : -half_m, 0);
+    return places;
+  };
+  const ScaleBetween face = scale_between(square(0.1), square(0.09));
+  EXPECT_NEAR(face.ratio, 0.9, 1e-12);
+  EXPECT_EQ(face.common, 4u);
+  EXPECT_EQ(face.bound, 0.06);
+  EXPECT_NEAR(scale_between(square(0.025 / std::sqrt(2.0)), square(0.1)).bound, 0.12, 1e-12);
+  std::map<std::string, Vec3> three = square(0.1);
+  three.erase("p3");
+  EXPECT_TRUE(std::isnan(scale_between(three, square(0.1)).ratio));
+  EXPECT_TRUE(std::isnan(scale_between(square(0), square(0.1)).ratio));
 }
 
 TEST(MeasuredFace, NeedsThePointsOfTheExpression) {

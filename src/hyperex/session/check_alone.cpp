@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/check_alone.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "hyperex/io/scan.hpp"
+#include "hyperex/session/plausible.hpp"
+#include "hyperex/simulate/drive/common_points.hpp"
+
+namespace hyperex::session {
+namespace {
+
+// Measured: 0.89 to 1.16 at rest, by all points, by seven or twelve of the mouth and by four, in
+// six people. By seven of the mouth 0.91 to 1.50 in every sample of a phone's take whose mouth
+// opens wide. Small children are about 0.7. The units of length and the inch are 2.54 times apart
+// or more.
+constexpr double kSmallest = 0.5, kLargest = 1.8;
+/// How far a person's size may be from the average one, as a factor, where a unit is to be found.
+constexpr double kPeopleDiffer = 1.35;
+/// Points that are closer together say nothing of size, m.
+constexpr double kLeastSpread_m = 0.01;
+
+/// The first sample with the most measured points, with those alone.
+motion::Motion fullest_sample(const motion::Motion& m) {
+  const auto measured = [](const Points& sample) {
+    Eigen::Index count = 0;
+    for (Eigen::Index p = 0; p < sample.rows(); ++p) count += sample.row(p).allFinite() ? 1 : 0;
+    return count;
+  };
+  const auto fullest = std::ranges::max_element(m.positions, {}, measured);
+  const auto k = std::size_t(fullest - m.positions.begin());
+  motion::Motion out;
+  out.source = m.source;
+  out.unit_note = m.unit_note;
+  out.time_s = {m.time_s[k]};
+  out.positions.emplace_back(measured(*fullest), 3);
+  for (std::size_t p = 0; p < m.names.size(); ++p)
+    if (const auto row = fullest->row(Eigen::Index(p)); row.allFinite()) {
+      out.positions[0].row(Eigen::Index(out.names.size())) = row;
+      out.names.push_back(m.names[p]);
+    }
+  return out;
+}
+
+double spread_m(const Points& points) {
+  return std::sqrt((points.rowwise() - points.colwise().mean()).rowwise().squaredNorm().mean());
+}
+
+/// What to do about a size of `ratio` that was read in this unit.
+std::string advice(double ratio, const std::string& unit_note) {
+  constexpr std::pair<const char*, double> units[] = {
+      {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inches", 0.0254}};
+  if (const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' '))))
+    for (const auto& [name, metres] : units) {
+      const double factor = ratio * metres / io::metres_per(*read);
+      if (metres != io::metres_per(*read) && std::abs(std::log(factor)) < std::log(kPeopleDiffer))
+        return fmt::format("its lengths are as if in {}, and were read as {}: {}", name, unit_note,
+                           std::string(name) == "inches" ? "give them in mm, cm or m"
+                                                         : "correct the unit there or state it");
+    }
+  return "check its unit" + (unit_note.empty() ? "" : ", which was read as " + unit_note) +
+         ", and that names and points belong together";
+}
+
+std::optional<Note> size_warning_of(const motion::Motion& sample) {
+  const FaceAtRest average = average_face();
+  const auto [names, recorded, expected] = simulate::common_points(sample, average.landmarks);
+  if (names.size() < 2 || spread_m(expected) < kLeastSpread_m) return std::nullopt;
+  const double ratio = spread_m(recorded) / spread_m(expected);
+  if (ratio >= kSmallest && ratio <= kLargest) return std::nullopt;
+  return make_warning(
+      "recording.size_implausible",
+      fmt::format("the recording has not the size of a face: its {} points with known names lie "
+                  "{:.3g} times as far apart as on {} (expected: {:g} to {:g}); {}",
+                  names.size(), ratio, average.whose, kSmallest, kLargest,
+                  advice(ratio, sample.unit_note)));
+}
+
+}  // namespace
+
+std::vector<Note> check_alone(const motion::Motion& m) {
+  std::vector<Note> warnings;
+  const motion::Motion sample = fullest_sample(m);
+  check_sides(sample, average_face());
+  add(warnings, sides_warning(sample, average_face()));
+  add(warnings, exchanged_warning(sample, average_face()));
+  add(warnings, size_warning_of(sample));
+  add(warnings, timing_warning(m));
+  return warnings;
+}
+
+std::optional<Note> size_warning(const motion::Motion& m) {
+  return size_warning_of(fullest_sample(m));
+}
+
+std::string guessed_unit(const motion::Motion& m) {
+  return m.unit_note.find("(guessed") == std::string::npos ? "" : m.unit_note;
+}
+
+}  // namespace hyperex::session

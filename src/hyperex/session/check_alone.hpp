@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hyperex/core/note.hpp"
+#include "hyperex/motion/motion.hpp"
+
+namespace hyperex::session {
+
+// Checks of a recording by itself, by an average face, where no scan shows the person's own.
+
+/// Throws InputError where left and right are exchanged (check_sides). Returns sides_warning,
+/// exchanged_warning, size_warning and timing_warning, in this order. `m` may contain the head's
+/// motion and gaps: the first of its samples with the most measured points is judged.
+std::vector<Note> check_alone(const motion::Motion& m);
+
+/// `recording.size_implausible`: the points with known names lie less than 0.5 or more than 1.8
+/// times as far apart as on an average face, as root mean square distance from their mean; in the
+/// same sample. Where the size is that of another unit, the warning names it.
+std::optional<Note> size_warning(const motion::Motion& m);
+
+/// How the recording's unit was guessed, "cm (guessed: ...)"; empty where the file or its user
+/// states it.
+std::string guessed_unit(const motion::Motion& m);
+
+}  // namespace hyperex::session

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/visits/scale_between.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace hyperex::visits {
+namespace {
+
+double rms_from_mean(const std::vector<Vec3>& places) {
+  Vec3 mean = Vec3::Zero();
+  for (const Vec3& place : places) mean += place / double(places.size());
+  double squares = 0;
+  for (const Vec3& place : places) squares += (place - mean).squaredNorm();
+  return std::sqrt(squares / double(places.size()));
+}
+
+}  // namespace
+
+ScaleBetween scale_between(const std::map<std::string, Vec3>& first,
+                           const std::map<std::string, Vec3>& now) {
+  constexpr std::size_t least_points = 4;
+  constexpr double least_spread_m = 1e-3;
+  std::vector<Vec3> there, here;
+  for (const auto& [name, place] : first)
+    if (const auto at = now.find(name); at != now.end()) {
+      there.push_back(place);
+      here.push_back(at->second);
+    }
+  ScaleBetween out{std::numeric_limits<double>::quiet_NaN(), there.size(), kScalesDiffer};
+  if (there.size() < least_points) return out;
+  const double spread_m = rms_from_mean(there);
+  if (spread_m < least_spread_m) return out;
+  out.ratio = rms_from_mean(here) / spread_m;
+  out.bound = std::max(kScalesDiffer, kSpreadsDiffer_m / spread_m);
+  return out;
+}
+
+}  // namespace hyperex::visits
