@@ -16,8 +16,8 @@ namespace hyperex::session {
 /// head pose.
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion);
 /// Adds `drive.points_left_out` where default points were left out, `drive.parts_joined` and
-/// `drive.measured_not_driven` (the outline of the face, and other points that move by 2 mm) where
-/// the default points follow the motion.
+/// `drive.measured_not_driven` (the outline of the face, and other points that move by 2 mm until
+/// time.end_s) where the default points follow the motion.
 void note_left_out_points(const scene::Scene& scene, const motion::Motion& motion,
                           std::vector<Note>& notes);
 

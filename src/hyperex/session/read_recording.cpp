@@ -12,6 +12,7 @@
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -130,7 +131,8 @@ std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion
   std::vector<std::string> named;
   for (const motion::UnsteadyPoint& point : moving)
     if (named.size() < most_named)
-      named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.change_m));
+      named.push_back(
+          face::name_in_words(point.name, fmt::format("{:.1f} mm", 1e3 * point.change_m)));
   add_rest(named, moving.size());
   return make_warning(
       "head.points_not_rigid",

@@ -160,8 +160,9 @@ TEST_F(InputNotes, NameThePointThatDoesNotFitInPlaceOfAMisfit) {
     for (auto& sample : m.positions) sample(m.index_of("ibug68_54"), 2) += 0.06;
   });
   EXPECT_GT(read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick).motion.rms_mm, 5);
-  EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.point_off"),
-                                            says("ibug68_54 lies 60.0 mm"))));
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("recording.point_off"),
+                                says("ibug68_54 (corner of the mouth, left) lies 60.0 mm"))));
 }
 
 TEST_F(InputNotes, NameAWrongLandmarkOnce) {
