@@ -132,10 +132,9 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
 }
 
 /// S(t). If the motion lacks points that S(t) needs but has a pair of points to measure, a message
-/// says so and the curve stays empty; the excursions are still printed. A picture needs S(t).
+/// says so and the curve stays empty; the excursions are still printed, written and drawn.
 metrics::SymmetryCurve curve_of(const motion::Motion& motion, const SymmetryOptions& options) {
-  const bool excursions_alone = options.picture.empty() &&
-                                metrics::symmetry_columns(motion).empty() &&
+  const bool excursions_alone = metrics::symmetry_columns(motion).empty() &&
                                 !metrics::excursions_of(motion, 0, 0).pairs.empty();
   try {
     return metrics::symmetry_of(motion, options.output.symmetry_floor);

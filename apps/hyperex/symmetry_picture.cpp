@@ -67,14 +67,8 @@ void draw_bars(render::Canvas& canvas, double y, const std::vector<metrics::Pair
   }
 }
 
-}  // namespace
-
-render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title) {
-  const metrics::SymmetryCurve& curve = measures.curve;
-  const auto pairs = farthest(measures.excursions);
-  const double bars = 700, end = bars + 27 * static_cast<double>(pairs.size()) + 24;
-  render::Canvas canvas(900, static_cast<int>(end) + 24);
-  canvas.text(70, 42, title, {.size_px = 20, .bold = true});
+/// xi of both sides, and S with its noise floor under it, from y = 90 to 648.
+void draw_curves_of(render::Canvas& canvas, const metrics::SymmetryCurve& curve) {
   const render::Range time{curve.time_s.front(),
                            std::max(curve.time_s.back(), curve.time_s.front() + 1e-3)};
   std::vector<double> floor;
@@ -99,6 +93,22 @@ render::Image draw(const metrics::SymmetryMeasures& measures, const std::string&
   if (!floor.empty()) render::shade_under(canvas, lower, curve.time_s, floor);
   render::draw_curves(canvas, lower, curve.time_s, s);
   canvas.text(470, 648, "time (s)", {.size_px = 13, .align = render::Align::centre});
+}
+
+}  // namespace
+
+render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title) {
+  const metrics::SymmetryCurve& curve = measures.curve;
+  const auto pairs = farthest(measures.excursions);
+  const double bars = curve.known() ? 700 : 110;
+  const double end = bars + 27 * static_cast<double>(pairs.size()) + 24;
+  render::Canvas canvas(900, static_cast<int>(end) + 24);
+  canvas.text(70, 42, title, {.size_px = 20, .bold = true});
+  if (curve.known())
+    draw_curves_of(canvas, curve);
+  else
+    canvas.text(70, 72, "S and xi are left out: the recording lacks points that they need.",
+                {.size_px = 13});
   if (!pairs.empty()) draw_bars(canvas, bars, pairs);
   canvas.text(70, end + 10, "No medical device: these figures diagnose nothing.",
               {.size_px = 12, .colour = render::palette::faint_ink});

@@ -342,12 +342,14 @@ TEST_F(Program, SymmetryNamesTheRigidPointThatIsNotThere) {
   EXPECT_EQ(call("symmetry motion.csv --rigid-points ibug68_27 --keep-head").status, 2);
 }
 
-TEST_F(Program, SymmetryWithoutThePointsOfSDrawsNoPicture) {
+TEST_F(Program, SymmetryWithoutThePointsOfSDrawsTheBarsAndWritesTheRest) {
   write_good_inputs(in(""));
   write_opening(in(""), 0, 16, keep_mouth_and_headband);
-  const Outcome drawn = call("symmetry motion.csv --picture s.png --keep-head");
-  EXPECT_EQ(drawn.status, 2);
-  EXPECT_THAT(drawn.err, HasSubstr("symmetry needs points that are not there"));
+  const Outcome drawn = call("symmetry motion.csv --picture s.png --excursions e.csv --keep-head");
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_THAT(drawn.err, HasSubstr("S(t) is left out: motion.csv: symmetry needs points"));
+  EXPECT_THAT(read_file(in("s.png")).substr(1, 3), "PNG");
+  EXPECT_TRUE(fs::exists(in("e.csv")));
 }
 
 }  // namespace
