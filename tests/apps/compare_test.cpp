@@ -339,6 +339,8 @@ TEST_F(Program, SymmetryNamesTheRigidPointThatIsNotThere) {
   const Outcome wrong = call("symmetry motion.csv --rigid-points ibug68_27,ibug68_36,head_9");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("there is no point head_9"));
+  EXPECT_THAT(call("symmetry motion.csv --rigid-points ibug68_8,ibug68_48,ibug68_54").err,
+              HasSubstr("--rigid-points names points that move with mouth and chin: ibug68_8"));
   EXPECT_EQ(call("symmetry motion.csv --rigid-points ibug68_27 --keep-head").status, 2);
 }
 

@@ -130,12 +130,8 @@ motion::Motion part_that_is_run(const scene::Scene& scene, const motion::Motion&
   return run;
 }
 
-bool by_default(const scene::Scene& scene) {
-  return !scene.drive.all_points && !scene.origins.contains("drive.points");
-}
-
 bool keeps_to_its_model(const scene::Scene& scene) {
-  return !scene.motion.candide.empty() && by_default(scene);
+  return !scene.motion.candide.empty() && drives_by_default(scene);
 }
 
 void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
@@ -150,11 +146,15 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
 
 }  // namespace
 
+bool drives_by_default(const scene::Scene& scene) {
+  return !scene.drive.all_points && !scene.origins.contains("drive.points");
+}
+
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
   std::vector<std::string> points = scene.drive.names_in(motion);
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
-  if (by_default(scene)) add_moving_parts(motion, points);
+  if (drives_by_default(scene)) add_moving_parts(motion, points);
   return points;
 }
 
@@ -171,7 +171,7 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
           fmt::format("drive.points: {} has no {}; the other {} of the default points are driven",
                       scene.motion.candide.string(), missing, driven.size())));
   }
-  if (!by_default(scene)) return;
+  if (!drives_by_default(scene)) return;
   const motion::Motion run = part_that_is_run(scene, motion);
   std::vector<std::string> joined, left_out;
   for (const FacePart& part : kParts) {

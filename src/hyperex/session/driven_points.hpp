@@ -9,6 +9,8 @@
 
 namespace hyperex::session {
 
+/// Whether the scene names no points that drive.
+bool drives_by_default(const scene::Scene& scene);
 /// The points that drive: those that drive.points names. "all": every point but those of
 /// motion.rigid_points and `stomion`, which lies between the lips. Where the scene names none:
 /// seven of the mouth (with CANDIDE's motion those that it has), and each part of brows and lids

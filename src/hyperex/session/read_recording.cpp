@@ -25,6 +25,7 @@
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
+#include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/track_recording.hpp"
 #include "hyperex/session/unknown_names.hpp"
 
@@ -226,7 +227,10 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   options.rigid_points = scene.motion.rigid_points;
   // Expressions move a face model, whose head stays where it is.
   const bool still_head = of_weights(scene);
-  if (!still_head) check_rigid_points(scene, filled.motion);
+  if (!still_head) {
+    check_rigid_points(scene, filled.motion);
+    check_head_points(filled.motion, options.rigid_points);
+  }
   auto steady = still_head ? motion::with_still_head(filled.motion)
                            : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;
