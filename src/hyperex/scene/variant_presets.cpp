@@ -75,7 +75,7 @@ std::string in_words_of_presets(const std::string& name) {
   return out;
 }
 
-bool of_a_side(const std::string& lower_name, char side) {
+bool has_side(const std::string& lower_name, char side) {
   return lower_name.ends_with(std::string("_") + side);
 }
 
@@ -87,10 +87,10 @@ std::vector<std::string> presets_meant(const std::string& name) {
   std::size_t fewest = most_slips + 1;
   for (const VariantPreset& preset : variant_presets()) {
     std::string theirs = lower_case(preset.name);
-    const bool given_sided = of_a_side(given, 'r') || of_a_side(given, 'l');
-    if (!given_sided && (of_a_side(theirs, 'r') || of_a_side(theirs, 'l')))
+    const bool given_sided = has_side(given, 'r') || has_side(given, 'l');
+    if (!given_sided && (has_side(theirs, 'r') || has_side(theirs, 'l')))
       theirs.resize(theirs.size() - 2);
-    else if (of_a_side(given, 'r') != of_a_side(theirs, 'r'))
+    else if (has_side(given, 'r') != has_side(theirs, 'r'))
       continue;
     const std::size_t far = slips(given, theirs);
     if (far > fewest || far > most_slips) continue;
