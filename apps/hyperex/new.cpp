@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "hyperex/capture/open_source.hpp"
@@ -19,6 +21,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/run_cost.hpp"
 
 namespace hyperex::cli {
@@ -114,12 +117,17 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.scan = seen_from(folder, scan);
   made.motion = seen_from(folder, motion);
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
-  if (made.motion_key == "motion.file" && motion != "embedded")
-    made.rigid_points = motion::proposed_rigid_points(motion::read_motion(motion));
+  std::vector<std::string> doubts;
+  if (made.motion_key == "motion.file" && motion != "embedded") {
+    const motion::Motion points = motion::read_motion(motion);
+    made.rigid_points = motion::proposed_rigid_points(points);
+    doubts = session::doubts_of_names(points, made.rigid_points);
+  }
   // Throws before anything is written.
   made.vtu_every = vtu_every_of(scene::read_scene_text(scene::new_scene_text(made), to));
   const std::string text = scene::new_scene_text(made);
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
+  for (const std::string& doubt : doubts) spdlog::warn("{}", doubt);
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //
       printable(to.string()), printable(made.name));

@@ -25,6 +25,7 @@
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/metrics/repetition_floor.hpp"
 #include "hyperex/metrics/symmetry_tables.hpp"
+#include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/motion/still_points.hpp"
@@ -128,8 +129,13 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
                                       const SymmetryOptions& options) {
   if (options.keep_head) return motion::with_head_kept(motion);
   if (!options.rig.empty()) return motion::with_still_head(motion);
-  if (!options.rigid_points.empty())
-    return motion::stabilise(motion, {.rigid_points = options.rigid_points});
+  if (!options.rigid_points.empty()) {
+    try {
+      return motion::stabilise(motion, {.rigid_points = options.rigid_points});
+    } catch (const motion::OptionError& error) {
+      throw InputError(error.sentence("--rigid-points"));
+    }
+  }
   const std::vector<std::string> still = motion::proposed_rigid_points(motion);
   motion::TriedPose tried = motion::try_stabilise(motion, still, "--rigid-points");
   if (tried.why_not.empty())
@@ -140,10 +146,9 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
 }
 
 /// S(t). If the motion lacks points that S(t) needs but has a pair of points to measure, a message
-/// says so and the curve stays empty; the excursions are still printed. A picture needs S(t).
+/// says so and the curve stays empty; the excursions are still printed, written and drawn.
 metrics::SymmetryCurve curve_of(const motion::Motion& motion, const SymmetryOptions& options) {
-  const bool excursions_alone = options.picture.empty() &&
-                                metrics::symmetry_columns(motion).empty() &&
+  const bool excursions_alone = metrics::symmetry_columns(motion).empty() &&
                                 !metrics::excursions_of(motion, 0, 0).pairs.empty();
   try {
     return metrics::symmetry_of(motion, options.output.symmetry_floor);

@@ -67,14 +67,8 @@ void draw_bars(render::Canvas& canvas, double y, const std::vector<metrics::Pair
   }
 }
 
-}  // namespace
-
-render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title) {
-  const metrics::SymmetryCurve& curve = measures.curve;
-  const auto pairs = farthest(measures.excursions);
-  const double bars = 722, end = bars + 27 * static_cast<double>(pairs.size()) + 24;
-  render::Canvas canvas(900, static_cast<int>(end) + 24);
-  canvas.text(70, 42, title, {.size_px = 20, .bold = true});
+/// xi of both sides, and S with its noise floor under it, from y = 90 to 648.
+void draw_curves_of(render::Canvas& canvas, const metrics::SymmetryCurve& curve) {
   const render::Range time{curve.time_s.front(),
                            std::max(curve.time_s.back(), curve.time_s.front() + 1e-3)};
   std::vector<double> floor;
@@ -102,6 +96,22 @@ render::Image draw(const metrics::SymmetryMeasures& measures, const std::string&
   double below = 656;
   for (const char* line : metrics::kWhatSCompares)
     canvas.text(70, below += 16, line, {.size_px = 12, .colour = render::palette::faint_ink});
+}
+
+}  // namespace
+
+render::Image draw(const metrics::SymmetryMeasures& measures, const std::string& title) {
+  const metrics::SymmetryCurve& curve = measures.curve;
+  const auto pairs = farthest(measures.excursions);
+  const double bars = curve.known() ? 722 : 110;
+  const double end = bars + 27 * static_cast<double>(pairs.size()) + 24;
+  render::Canvas canvas(900, static_cast<int>(end) + 24);
+  canvas.text(70, 42, title, {.size_px = 20, .bold = true});
+  if (curve.known())
+    draw_curves_of(canvas, curve);
+  else
+    canvas.text(70, 72, "S and xi are left out: the recording lacks points that they need.",
+                {.size_px = 13});
   if (!pairs.empty()) draw_bars(canvas, bars, pairs);
   canvas.text(70, end + 10, "No medical device: these figures diagnose nothing.",
               {.size_px = 12, .colour = render::palette::faint_ink});

@@ -346,15 +346,19 @@ TEST_F(Program, SymmetryNamesTheRigidPointThatIsNotThere) {
   const Outcome wrong = call("symmetry motion.csv --rigid-points ibug68_27,ibug68_36,head_9");
   EXPECT_EQ(wrong.status, 2);
   EXPECT_THAT(wrong.err, HasSubstr("there is no point head_9"));
+  EXPECT_THAT(call("symmetry motion.csv --rigid-points ibug68_8,ibug68_48,ibug68_54").err,
+              HasSubstr("--rigid-points names points that move with mouth and chin: ibug68_8"));
   EXPECT_EQ(call("symmetry motion.csv --rigid-points ibug68_27 --keep-head").status, 2);
 }
 
-TEST_F(Program, SymmetryWithoutThePointsOfSDrawsNoPicture) {
+TEST_F(Program, SymmetryWithoutThePointsOfSDrawsTheBarsAndWritesTheRest) {
   write_good_inputs(in(""));
   write_opening(in(""), 0, 16, keep_mouth_and_headband);
-  const Outcome drawn = call("symmetry motion.csv --picture s.png --keep-head");
-  EXPECT_EQ(drawn.status, 2);
-  EXPECT_THAT(drawn.err, HasSubstr("symmetry needs points that are not there"));
+  const Outcome drawn = call("symmetry motion.csv --picture s.png --excursions e.csv --keep-head");
+  ASSERT_EQ(drawn.status, 0) << drawn.err;
+  EXPECT_THAT(drawn.err, HasSubstr("S(t) is left out: motion.csv: symmetry needs points"));
+  EXPECT_THAT(read_file(in("s.png")).substr(1, 3), "PNG");
+  EXPECT_TRUE(fs::exists(in("e.csv")));
 }
 
 }  // namespace

@@ -85,6 +85,34 @@ TEST_F(NewCommand, NamesTheStillPointsOfAFileThatHasItsOwn) {
   EXPECT_THAT(aligned.out, HasSubstr("aligned by 7 common points"));
 }
 
+TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
+  const auto made_of = [&](const std::string& name, const auto& change) {
+    write_opening(in(""), 0, 16, [&](motion::Motion& m) {
+      keep_mouth_and_headband(m);
+      change(m);
+    });
+    const Outcome made = call("new face.ply motion.csv --out " + name + ".toml");
+    EXPECT_EQ(made.status, 0) << made.err;
+    EXPECT_EQ(call("check " + name + ".toml").status, 2);
+    return made.err;
+  };
+  EXPECT_THAT(made_of("headless",
+                      [](motion::Motion& m) {
+                        for (Points& at : m.positions) at.conservativeResize(7, Eigen::NoChange);
+                        m.names.resize(7);
+                      }),
+              testing::AllOf(HasSubstr("warning: "), HasSubstr("record three such points or more"),
+                             HasSubstr("hyperex symmetry works without them")));
+  EXPECT_THAT(made_of("words",
+                      [](motion::Motion& m) {
+                        for (int k = 0; k < 7; ++k)
+                          m.names[std::size_t(k)] =
+                              k == 0 ? "right mouth corner" : "lip " + std::to_string(k);
+                      }),
+              testing::AllOf(HasSubstr("shares 0 point names with the scan's landmarks"),
+                             HasSubstr("did you mean ibug68_48 by right mouth corner?")));
+}
+
 /// Weights of a blink alone, through a new scene and a run, to closed lids.
 TEST_F(NewCommand, WeightsOfABlinkCloseTheLids) {
   std::string weights = "time_s,eyeBlinkLeft,eyeBlinkRight\n";

@@ -121,6 +121,15 @@ void open_wide(const fs::path& folder) {
   write_opening(folder, 0, 81);
 }
 
+/// The right brow's outer end rises by 20 mm while the mouth opens.
+void raise_a_brow(const fs::path& folder) {
+  write_opening(folder, 0, 81, [](motion::Motion& m) {
+    const int brow = m.index_of("ibug68_17");
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      m.positions[k](brow, 1) += 0.020 * double(k) / 80;
+  });
+}
+
 /// A smile, a shape that the canonical face lacks, and a column with a misspelt name.
 void write_weights(const fs::path& folder) {
   std::ostringstream table;
@@ -255,7 +264,7 @@ const std::vector<NotedScene>& noted_scenes() {
        write_skull_that_sticks_out},
       {"anatomy.ct_fits_badly", true, "anatomy.ct=\".\"", write_ct_of_another_face},
       {"head.pose_unknown", true,
-       "motion.rigid_points=[\"ibug68_48\", \"ibug68_57\", \"ibug68_54\"]", open_wide},
+       "motion.rigid_points=[\"ibug68_17\", \"ibug68_26\", \"ibug68_29\"]", raise_a_brow},
       {"head.points_not_rigid", true,
        "motion.rigid_points=[\"ibug68_27\", \"ibug68_36\", \"ibug68_45\", \"ibug68_57\"]",
        open_wide},

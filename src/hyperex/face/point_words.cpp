@@ -116,11 +116,38 @@ std::string plain(std::string_view name) {
   return words;
 }
 
+/// Without the term in brackets at the end: "corner of the mouth (cheilion)".
+std::string_view without_term(std::string_view words) {
+  return words.ends_with(')') ? words.substr(0, words.rfind(" (")) : words;
+}
+
 std::string with_side(std::string_view words, char side) {
   return std::string(words) + (side == 'L' ? ", left" : side == 'R' ? ", right" : "");
 }
 
+struct SidedStem {
+  std::string_view stem;
+  char side = 'M';
+};
+
+SidedStem sided_stem(std::string_view name) {
+  const bool sided = name.size() > 2 && (name.ends_with("_L") || name.ends_with("_R"));
+  return sided ? SidedStem{name.substr(0, name.size() - 2), name.back()} : SidedStem{name};
+}
+
 }  // namespace
+
+std::string name_in_words(const std::string& name, const std::string& more) {
+  const SidedStem at = sided_stem(name);
+  const auto found = anatomical.find(at.stem);
+  std::string inside;
+  if (ibug_number(name))
+    inside = point_words(name);
+  else if (found != anatomical.end())
+    inside = with_side(without_term(found->second), at.side);
+  if (!more.empty()) inside += (inside.empty() ? "" : "; ") + more;
+  return inside.empty() ? name : name + " (" + inside + ")";
+}
 
 std::string point_words(const std::string& name) {
   const std::string_view view = name;
@@ -129,11 +156,9 @@ std::string point_words(const std::string& name) {
     const IbugWords& point = ibug_points[std::size_t(*k)];
     return with_side(point.words, slash == view.npos ? point.side : 'M');
   }
-  const bool sided = view.size() > 2 && (view.ends_with("_L") || view.ends_with("_R"));
-  const std::string_view stem = sided ? view.substr(0, view.size() - 2) : view;
-  const auto found = anatomical.find(stem);
-  if (found == anatomical.end()) return plain(view);
-  return with_side(found->second, sided ? view.back() : 'M');
+  const SidedStem at = sided_stem(view);
+  const auto found = anatomical.find(at.stem);
+  return found == anatomical.end() ? plain(view) : with_side(found->second, at.side);
 }
 
 }  // namespace hyperex::face

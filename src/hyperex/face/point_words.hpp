@@ -11,4 +11,9 @@ namespace hyperex::face {
 /// subject's own.
 std::string point_words(const std::string& name);
 
+/// The name with its words, for messages: "ibug68_54 (corner of the mouth, left)", "cheilion_L
+/// (corner of the mouth, left)". `more` follows the words, or stands alone where there are none:
+/// "ibug68_8 (chin; 3.1 mm)", "head_1 (3.1 mm)". Names of no known landmark have no words.
+std::string name_in_words(const std::string& name, const std::string& more = "");
+
 }  // namespace hyperex::face

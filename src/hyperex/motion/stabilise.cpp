@@ -10,6 +10,8 @@
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/point_words.hpp"
+#include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/expressive_pose.hpp"
 #include "hyperex/motion/option_error.hpp"
@@ -51,21 +53,48 @@ std::string listed(std::vector<std::string> names) {
                      more > 0 ? fmt::format(" and {} more", more) : "");
 }
 
-/// The points that could be named as moving with the skull: those found to keep their distances,
-/// else the motion's other points. Names that are not landmarks of a face (of markers on a helmet,
-/// for example) come first, since the usual landmarks are tried already.
+constexpr const char* kNeeded =
+    "head pose needs three points that move with the skull and not with expressions (eye corners, "
+    "bridge of the nose, a band around the forehead, temples, upper teeth)";
+
+/// The end of the message after the option's name: the points that it could name, those found to
+/// keep their distances, else the motion's other points. Names that are not landmarks of a face (of
+/// markers on a helmet, for example) come first, since the usual landmarks are tried already.
+/// Points that move with the mouth are never proposed.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
   if (const auto still = find_still_points(motion); !still.empty())
-    return "these keep their distances from each other, as points of the skull do: " +
+    return " names others; these keep their distances from each other, as points of the skull "
+           "do: " +
            listed(still);
   std::vector<std::string> names;
-  for (int i = 0; i < int(motion.names.size()); ++i)
-    if (std::ranges::find(known, i) == known.end()) names.push_back(motion.names[std::size_t(i)]);
-  if (names.empty()) return "it has no other points";
+  bool of_mouth = false;
+  for (int i = 0; i < int(motion.names.size()); ++i) {
+    if (std::ranges::find(known, i) != known.end()) continue;
+    const std::string& name = motion.names[std::size_t(i)];
+    const bool moves = face::moves_with_mouth(name);
+    if (moves) of_mouth = true;
+    if (!moves) names.push_back(name);
+  }
+  if (known.size() + names.size() < 3)
+    return fmt::format(" finds too few others, as {}: record three such points or more",
+                       of_mouth ? "the motion's other points move with mouth and chin"
+                                : "the motion has no other points");
   const auto& of_faces = face::canonical_face().landmarks;
   std::ranges::stable_partition(names,
                                 [&](const std::string& name) { return !of_faces.contains(name); });
-  return "the motion's other points are " + listed(std::move(names));
+  return fmt::format(" names others; the motion's other points{} are {}",
+                     of_mouth ? ", without those of mouth and chin," : "",
+                     listed(std::move(names)));
+}
+
+/// Points of the mouth and the chin would give the head's pose to the expression.
+void refuse_points_of_mouth(const Motion& motion, const std::vector<std::string>& stated) {
+  std::vector<std::string> of_mouth;
+  for (const auto& name : stated)
+    if (face::moves_with_mouth(name)) of_mouth.push_back(face::name_in_words(name));
+  if (of_mouth.empty() || stated.size() - of_mouth.size() >= 3) return;
+  throw OptionError(named(motion), fmt::format("{}; ", kNeeded), "rigid_points",
+                    " names points that move with mouth and chin: " + listed(of_mouth));
 }
 
 std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::string>& stated) {
@@ -77,16 +106,15 @@ std::vector<int> rigid_indices(const Motion& motion, const std::vector<std::stri
     else if (!stated.empty())
       refuse(motion, "there is no point " + name + ", which was named as moving with the skull");
   }
+  refuse_points_of_mouth(motion, stated);
   const Points first = rows_of(motion.positions[0], indices);
   if (stated.empty() && !(first.allFinite() && spread_off_line(first) > kWellSpread))
     for (const auto& name : kNoseTip)
       if (const int index = motion.index_of(name); index >= 0) indices.push_back(index);
   if (indices.size() < 3)
     throw OptionError(named(motion),
-                      fmt::format("head pose needs three points that move with the skull (eye "
-                                  "corners, nose); the motion has {} of them. ",
-                                  indices.size()),
-                      "rigid_points", " names others; " + other_names(motion, indices));
+                      fmt::format("{}; the motion has {} of them. ", kNeeded, indices.size()),
+                      "rigid_points", other_names(motion, indices));
   return indices;
 }
 
@@ -232,6 +260,10 @@ const std::vector<std::string>& default_rigid_points() {
       face::ibug(28),  face::ibug(29),   face::ibug(0),    face::ibug(16), "exocanthion_R",
       "exocanthion_L", "endocanthion_R", "endocanthion_L", "nasion"};
   return names;
+}
+
+void check_pose_points(const Motion& motion, const std::vector<std::string>& rigid_points) {
+  if (!motion.positions.empty()) rigid_indices(motion, rigid_points);
 }
 
 StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options) {

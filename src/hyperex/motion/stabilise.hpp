@@ -38,12 +38,17 @@ struct StabilisedMotion {
 /// where those of them that a motion has lie close to a line, as the eye corners alone do.
 const std::vector<std::string>& default_rigid_points();
 
+/// Throws as stabilise() would before any work: InputError where a given point does not exist,
+/// OptionError on `rigid_points` where fewer than three points can carry the pose. Given points of
+/// the mouth and the chin (face::moves_with_mouth()) do not count.
+void check_pose_points(const Motion& motion, const std::vector<std::string>& rigid_points = {});
+
 /// For each sample k, head_pose[k] is the rigid transform that maps the head of sample 0 to sample
 /// k. Positions become head_pose[k]^-1 positions[k], so that only deformation is left; head_pose[0]
 /// is the identity. `skull_points` are the given ones. The pose is estimated from all landmarks of
 /// the face (expressive_pose.hpp), or from the given points (Kabsch, no scale). Points not measured
-/// stay NaN. Throws InputError where a given point does not exist, or where in some sample fewer
-/// than three rigid points are measured or they lie nearly on a line.
+/// stay NaN. Throws as check_pose_points() does, and InputError where in some sample fewer than
+/// three rigid points are measured or they lie nearly on a line.
 StabilisedMotion stabilise(const Motion& motion, const StabiliseOptions& options = {});
 
 /// For a motion whose head is known to be still, such as that of a face model moved by expressions:

@@ -9,6 +9,7 @@
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
+#include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/stabilise.hpp"
 
@@ -20,12 +21,9 @@ constexpr std::size_t kLeastStillPoints = 4;
 constexpr double kLeastStillSpread = 0.02;  // the least that stabilise() accepts
 
 std::vector<int> candidates(const Motion& motion) {
-  std::vector<std::string> moves;
-  for (int i = 4; i <= 12; ++i) moves.push_back(face::ibug(i));
-  for (int i = 48; i <= 67; ++i) moves.push_back(face::ibug(i));
   std::vector<int> out;
   for (std::size_t p = 0; p < motion.names.size(); ++p)
-    if (std::ranges::find(moves, motion.names[p]) == moves.end() &&
+    if (!face::moves_with_mouth(motion.names[p]) &&
         std::ranges::all_of(motion.positions,
                             [&](const Points& at) { return at.row(Eigen::Index(p)).allFinite(); }))
       out.push_back(int(p));

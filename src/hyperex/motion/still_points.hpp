@@ -10,7 +10,7 @@ namespace hyperex::motion {
 /// Points that keep their distances from each other over the whole recording, as points fixed to
 /// the skull do. A set is grown from each point in turn, such that no distance in it changes by
 /// more than kStillPoints_m; the largest set is returned, in the motion's order. Points of the
-/// mouth and the jaw (ibug68_4 to 12 and 48 to 67) are left out, since the lower lip and the chin
+/// mouth and the chin (face::moves_with_mouth()) are left out, since the lower lip and the chin
 /// also move together. Empty where fewer than four points are found, or where they lie nearly on a
 /// line. Of a long recording 200 to 400 evenly spaced samples are used.
 std::vector<std::string> find_still_points(const Motion& motion);

@@ -20,10 +20,8 @@ std::map<std::string, json> SceneReader::changes_with_preset(const json& block,
   const VariantPreset* preset =
       given.is_string() ? find_variant_preset(given.get<std::string>()) : nullptr;
   if (!preset) {
-    std::vector<std::string> names;
-    for (const VariantPreset& one : variant_presets()) names.push_back(one.name);
     complain(in_file(at + ".preset"), at + ".preset", given,
-             one_of_names(given.is_string() ? given.get<std::string>() : "", names));
+             expected_preset(given.is_string() ? given.get<std::string>() : ""));
     return {};
   }
   changes.merge(changes_of(preset->changes));  // keys that are there stay: the variant's own

@@ -19,5 +19,9 @@ struct VariantPreset {
 const std::vector<VariantPreset>& variant_presets();
 /// Null where there is none of this name.
 const VariantPreset* find_variant_preset(const std::string& name);
+/// The expected text for the name of no preset: "another name; did you mean palsy_partial_L?" for
+/// "palsy_incomplete_L" and for names with one or two slips, else the list of all. A side is never
+/// guessed.
+std::string expected_preset(const std::string& name);
 
 }  // namespace hyperex::scene

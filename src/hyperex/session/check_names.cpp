@@ -2,13 +2,18 @@
 #include "hyperex/session/check_names.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hyperex/anatomy/landmarks.hpp"
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/unknown_names.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 
@@ -53,7 +58,37 @@ std::vector<InputProblem> names_of_no_point(const scene::Scene& scene, const mot
   return problems;
 }
 
-/// The same for landmarks of the scan.
+/// One problem for all default points that the recording lacks. The user wrote no list of points,
+/// so none is quoted, and the points that are there are listed.
+std::vector<InputProblem> missing_default_points(const scene::Scene& scene, const motion::Motion& m,
+                                                 const std::vector<std::string>& driven) {
+  constexpr std::size_t most_named = 8;
+  std::vector<std::string> missing, there;
+  for (const std::string& name : driven)
+    if (m.index_of(name) < 0) missing.push_back(face::name_in_words(name));
+  if (missing.empty()) return {};
+  for (const std::string& name : m.names)
+    if (there.size() < most_named) there.push_back(face::name_in_words(name));
+  add_rest(there, m.names.size());
+  return {{scene.file, 0, "drive.points", "",
+           fmt::format("to be given, as {} lacks {}, which would drive by default; it has {}",
+                       motion::named(m), fmt::join(missing, ", "), fmt::join(there, ", "))}};
+}
+
+/// Problems for names that are not points of the recording, of which `driven` drive.
+std::vector<InputProblem> problems_of_points(const scene::Scene& scene, const motion::Motion& m,
+                                             const std::vector<std::string>& driven) {
+  std::vector<InputProblem> all = drives_by_default(scene)
+                                      ? missing_default_points(scene, m, driven)
+                                      : names_of_no_point(scene, m, driven, "drive.points");
+  for (const auto& [key, names] : {std::pair{"support.jaw_points", &scene.support.jaw_points},
+                                   {"region.measured_points", &scene.region.measured_points}})
+    for (InputProblem& problem : names_of_no_point(scene, m, *names, key))
+      all.push_back(std::move(problem));
+  return all;
+}
+
+/// Problems for those `names` that are not landmarks of the scan.
 std::vector<InputProblem> names_of_no_landmark(const scene::Scene& scene, const Inputs& in,
                                                const std::vector<std::string>& names,
                                                const char* key) {
@@ -91,10 +126,7 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
   const auto add = [&](const std::vector<InputProblem>& more) {
     all.insert(all.end(), more.begin(), more.end());
   };
-  const motion::Motion& m = in.motion.motion;
-  add(names_of_no_point(scene, m, in.driven, "drive.points"));
-  add(names_of_no_point(scene, m, scene.support.jaw_points, "support.jaw_points"));
-  add(names_of_no_point(scene, m, scene.region.measured_points, "region.measured_points"));
+  add(problems_of_points(scene, in.motion.motion, in.driven));
   add(names_of_no_landmark(scene, in, scene.drive.still_points, "drive.still_points"));
   add(driven_still_points(scene, in));
   add(names_of_no_landmark(scene, in, thick, "mesh.thickness_point"));
@@ -106,6 +138,13 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
       problem.expected += did_you_mean(unknown_landmark(problem), landmarks_of(in));
     problem.key = owner + problem.key;
   }
+  if (!all.empty()) throw InputError(all);
+}
+
+void check_point_names(const scene::Scene& scene, const motion::Motion& m,
+                       const std::string& owner) {
+  std::vector<InputProblem> all = problems_of_points(scene, m, driven_points(scene, m));
+  for (InputProblem& problem : all) problem.key = owner + problem.key;
   if (!all.empty()) throw InputError(all);
 }
 

@@ -13,8 +13,10 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
 /// Throws InputError for motion.rigid_points that the recording `m` does not have.
 void check_rigid_points(const scene::Scene& scene, const motion::Motion& m);
 
-/// The part of check_names() that needs no landmarks: throws InputError for regions that do not
-/// exist.
+/// Parts of check_names() that need no landmarks. They throw InputError for points that the
+/// recording does not have, and for regions that do not exist.
+void check_point_names(const scene::Scene& scene, const motion::Motion& m,
+                       const std::string& owner = "");
 void check_regions(const scene::Scene& scene, const std::string& owner = "");
 
 /// Throws InputError where the elements are longer than a third of the mouth's width: lips move

@@ -11,6 +11,7 @@
 
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/face/same_place.hpp"
 
 namespace hyperex::session {
@@ -86,8 +87,8 @@ bool is_further(const motion::Motion& motion, const std::vector<std::string>& dr
   return !listed_as_other && !(number && is_of_a_part(*number));
 }
 
-/// "cheek_L (5.1 mm)", "glabella (3.0 mm)" and "and 9 more": first those away from the lips, where
-/// nothing else is driven, then those that go farthest.
+/// "cheek_L (cheek, left; 5.1 mm)", "my_mark (3.0 mm)" and "and 9 more": first those away from the
+/// lips, where nothing else is driven, then those that go farthest.
 std::vector<std::string> further_points(const motion::Motion& motion,
                                         const std::vector<std::string>& driven) {
   struct Point {
@@ -110,17 +111,27 @@ std::vector<std::string> further_points(const motion::Motion& motion,
   std::vector<std::string> named;
   for (const Point& point : points)
     if (named.size() < kMostNamed)
-      named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.far_m));
+      named.push_back(face::name_in_words(point.name, fmt::format("{:.1f} mm", 1e3 * point.far_m)));
   add_rest(named, points.size());
   return named;
 }
 
-bool by_default(const scene::Scene& scene) {
-  return !scene.drive.all_points && !scene.origins.contains("drive.points");
+/// Without what comes after time.end_s, which is counted from the motion's first sample.
+motion::Motion part_that_is_run(const scene::Scene& scene, const motion::Motion& motion) {
+  if (scene.time.end_s <= 0 || motion.time_s.empty()) return motion;
+  const double last_s = motion.time_s.front() + scene.time.end_s;
+  const auto end = std::ranges::upper_bound(motion.time_s, last_s);
+  if (end == motion.time_s.end()) return motion;
+  motion::Motion run = motion;
+  run.positions.resize(std::size_t(end - motion.time_s.begin()));
+  run.time_s.resize(run.positions.size());
+  run.time_s.push_back(last_s);
+  run.positions.push_back(motion.at(last_s));
+  return run;
 }
 
 bool keeps_to_its_model(const scene::Scene& scene) {
-  return !scene.motion.candide.empty() && by_default(scene);
+  return !scene.motion.candide.empty() && drives_by_default(scene);
 }
 
 void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
@@ -135,11 +146,15 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
 
 }  // namespace
 
+bool drives_by_default(const scene::Scene& scene) {
+  return !scene.drive.all_points && !scene.origins.contains("drive.points");
+}
+
 std::vector<std::string> driven_points(const scene::Scene& scene, const motion::Motion& motion) {
   std::vector<std::string> points = scene.drive.names_in(motion);
   if (keeps_to_its_model(scene))
     std::erase_if(points, [&](const std::string& name) { return motion.index_of(name) < 0; });
-  if (by_default(scene)) add_moving_parts(motion, points);
+  if (drives_by_default(scene)) add_moving_parts(motion, points);
   return points;
 }
 
@@ -156,11 +171,12 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
           fmt::format("drive.points: {} has no {}; the other {} of the default points are driven",
                       scene.motion.candide.string(), missing, driven.size())));
   }
-  if (!by_default(scene)) return;
+  if (!drives_by_default(scene)) return;
+  const motion::Motion run = part_that_is_run(scene, motion);
   std::vector<std::string> joined, left_out;
   for (const FacePart& part : kParts) {
     // Of the outline the chin drives by default.
-    const double far_m = part.joins ? reach_m(motion, part) : reach_m(motion, part, driven);
+    const double far_m = part.joins ? reach_m(motion, part) : reach_m(run, part, driven);
     if (far_m < part.moves_m) continue;
     (part.joins ? joined : left_out)
         .push_back(fmt::format("{} ({:.1f} mm)", part.name, 1e3 * far_m));
@@ -169,7 +185,7 @@ void note_left_out_points(const scene::Scene& scene, const motion::Motion& motio
     notes.push_back(make_note("drive.parts_joined",
                               fmt::format("driven in addition to the mouth, since they move: {}",
                                           fmt::join(joined, ", "))));
-  std::ranges::copy(further_points(motion, driven), std::back_inserter(left_out));
+  std::ranges::copy(further_points(run, driven), std::back_inserter(left_out));
   if (!left_out.empty())
     notes.push_back(make_note(
         "drive.measured_not_driven",

@@ -17,6 +17,7 @@
 #include "hyperex/session/read_bones.hpp"
 #include "hyperex/session/read_recording.hpp"
 #include "hyperex/session/read_scan.hpp"
+#include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/teeth.hpp"
 #include "hyperex/simulate/drive/lid_aperture.hpp"
 
@@ -49,6 +50,10 @@ void read_scan_files(const scene::Scene& scene, Files& files) {
         [&] { complete_landmarks(scene, files.given, scan.in.scan, files.completion.in); });
 }
 
+bool has_own_landmarks(const scene::Scene& scene) {
+  return !scene.scan.landmarks.empty() || !scene.given.landmarks.empty();
+}
+
 void read_recording_files(const scene::Scene& scene, Extent extent, Files& files) {
   Part& recording = files.recording;
   recording.problems.attempt([&] {
@@ -56,6 +61,9 @@ void read_recording_files(const scene::Scene& scene, Extent extent, Files& files
     if (scene.motion.source.embedded) return;
     const motion::Motion m = read_motion(scene, extent, recording.in);
     files.steady = steady_motion(scene, m, extent, recording.in);
+    // Before landmarks are looked for, which takes long.
+    if (!scene.scan.source.embedded && !has_own_landmarks(scene))
+      check_landmark_names(files.steady->motion);
   });
 }
 
@@ -94,14 +102,10 @@ void check_unaligned(const scene::Scene& scene,
   in.notes.push_back(make_note(
       "landmarks.not_searched",
       "the scene names no landmarks, so a run looks for them on the scan, as hyperex landmarks "
-      "does; not checked: whether they are found, how the recording fits them, the names of points "
-      "and landmarks, and the mesh"));
+      "does; not checked: whether they are found, how the recording fits them, the names of "
+      "landmarks, and the mesh"));
   if (steady) check_without_landmarks(scene, steady->motion, in);
   note_missing_support(scene, in);
-}
-
-bool has_own_landmarks(const scene::Scene& scene) {
-  return !scene.scan.landmarks.empty() || !scene.given.landmarks.empty();
 }
 
 /// Points of a camera's recording or of a face model are no points that a user could correct. A
@@ -172,11 +176,15 @@ Inputs read_inputs(const scene::Scene& scene, Extent extent) {
   problems.throw_if_any();
   if (files.given.empty()) {
     check_unaligned(scene, files.steady, in);
-    problems.attempt([&] { check_regions(scene); });
+    const auto check_known = [&](const scene::Scene& one, const std::string& owner) {
+      if (files.steady)
+        problems.attempt([&] { check_point_names(one, files.steady->motion, owner); });
+      problems.attempt([&] { check_regions(one, owner); });
+    };
+    check_known(scene, "");
     problems.throw_if_any();
     for (std::size_t i = 0; i < scene.variants.size(); ++i)
-      problems.attempt(
-          [&] { check_regions(scene.variants[i].scene, fmt::format("variant[{}].", i)); });
+      check_known(scene.variants[i].scene, fmt::format("variant[{}].", i));
     problems.throw_if_any();
     return in;
   }

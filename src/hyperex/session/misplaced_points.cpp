@@ -13,6 +13,7 @@
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
@@ -161,8 +162,8 @@ std::optional<Note> misplaced_warning(const MisplacedPoints& misplaced) {
   std::vector<std::string> named;
   for (const MisplacedPoints::Point& point : misplaced.points)
     if (named.size() < most_named)
-      named.push_back(fmt::format("{} {}{:.1f} mm{}", point.name, named.empty() ? "lies " : "",
-                                  1e3 * point.off_m,
+      named.push_back(fmt::format("{} {}{:.1f} mm{}", face::name_in_words(point.name),
+                                  named.empty() ? "lies " : "", 1e3 * point.off_m,
                                   named.empty() ? " from the scan's landmark of that name" : ""));
   add_rest(named, count);
   const bool one = count == 1;

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/scene/keys.hpp"
@@ -167,8 +168,9 @@ std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAt
           "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
           "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
           "displacements are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
-          started->stretch.from_s, started->stretch.to_s, face.whose, started->point,
-          1e3 * started->distance_m, started->stretch.from_s, started->stretch.to_s));
+          started->stretch.from_s, started->stretch.to_s, face.whose,
+          face::name_in_words(started->point), 1e3 * started->distance_m, started->stretch.from_s,
+          started->stretch.to_s));
 }
 
 std::string timing_sentence(const motion::Motion& m) {
@@ -306,7 +308,7 @@ std::optional<Note> skin_warning(const SkinOff& off) {
           "points stay as recorded, those of other points within a centimetre of there, and of "
           "variants there, are less accurate; a smaller mesh.element_size_mm or a cleaner scan "
           "helps",
-          off.distance_mm, off.beside_mm, off.landmark));
+          off.distance_mm, off.beside_mm, face::name_in_words(off.landmark)));
 }
 
 }  // namespace hyperex::session

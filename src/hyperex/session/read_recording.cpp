@@ -12,6 +12,7 @@
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
 #include "hyperex/motion/exaggerate.hpp"
 #include "hyperex/motion/fill_gaps.hpp"
@@ -25,6 +26,7 @@
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
+#include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/track_recording.hpp"
 #include "hyperex/session/unknown_names.hpp"
 
@@ -131,7 +133,8 @@ std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion
   std::vector<std::string> named;
   for (const motion::UnsteadyPoint& point : moving)
     if (named.size() < most_named)
-      named.push_back(fmt::format("{} ({:.1f} mm)", point.name, 1e3 * point.change_m));
+      named.push_back(
+          face::name_in_words(point.name, fmt::format("{:.1f} mm", 1e3 * point.change_m)));
   add_rest(named, moving.size());
   return make_warning(
       "head.points_not_rigid",
@@ -225,7 +228,10 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   options.rigid_points = scene.motion.rigid_points;
   // Expressions move a face model, whose head stays where it is.
   const bool still_head = of_weights(scene);
-  if (!still_head) check_rigid_points(scene, filled.motion);
+  if (!still_head) {
+    check_rigid_points(scene, filled.motion);
+    check_head_points(filled.motion, options.rigid_points);
+  }
   auto steady = still_head ? motion::with_still_head(filled.motion)
                            : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;

@@ -232,10 +232,8 @@ void check_disk(const scene::Scene& scene, const RunCost& cost, const std::vecto
   // If the times are in milliseconds, the unit is the mistake to report, not the size.
   for (const Note& note : notes)
     if (note.id == "recording.time_unit_doubtful")
-      throw InputError(scene::problem_at(
-          scene, note.key,
-          fmt::format("times in seconds ({}); where they are, output.most_gb = {:.3g} or more",
-                      note.text, allowing_gb(cost.disk_bytes))));
+      throw InputError(
+          scene::problem_at(scene, note.key, fmt::format("times in seconds ({})", note.text)));
   const std::string frames = fmt::format(
       ", of them {} for ParaView (output.vtu = false leaves these out, output.vtu_every = 10 takes "
       "a tenth; time.start_s and time.end_s shorten the run)",

@@ -10,6 +10,7 @@
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 
@@ -99,8 +100,15 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
   const auto is_there = [&](const std::string& one) {
     return std::find(there_are.begin(), there_are.end(), one) != there_are.end();
   };
+  // A landmark's name is not misspelt: only its other name is the same point.
+  if (face::canonical_face().landmarks.contains(name)) {
+    const std::string other = face::other_name(name);
+    return is_there(other) ? fmt::format("; did you mean {}?", other) : "";
+  }
   std::string near = nearest_landmark(name);
   if (!is_there(near)) near = scene::nearest(name, there_are);
+  // Another number is another part of the face.
+  if (const auto k = face::ibug_number(near); k && number_at_end(name) != *k) return "";
   if (name.empty() || near.empty() || near == name) return "";
   const std::string side = sided(name).side;
   if (sided(near).side == side) return fmt::format("; did you mean {}?", near);

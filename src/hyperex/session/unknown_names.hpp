@@ -22,7 +22,8 @@ std::string did_you_mean_region(const std::string& key, const std::string& name)
 std::string nearest_landmark(const std::string& name);
 
 /// The end of a message, "; did you mean cheilion_R?", with the most similar of the names that
-/// exist; empty where none is similar.
+/// exist; empty where none is similar. For the name of a landmark that is its other name alone, and
+/// an iBUG point of another number is never meant.
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& there_are);
 
 /// `landmarks.misspelt` for landmarks of unknown names that look misspelt, "... did you mean

@@ -48,5 +48,15 @@ TEST(PointWords, KnowPairsAndLeaveOtherNames) {
   EXPECT_EQ(point_words(""), "");
 }
 
+TEST(PointWords, StandBesideTheNameInMessages) {
+  EXPECT_EQ(name_in_words("ibug68_54"), "ibug68_54 (corner of the mouth, left)");
+  EXPECT_EQ(name_in_words("cheilion_R"), "cheilion_R (corner of the mouth, right)");
+  EXPECT_EQ(name_in_words("ibug68_8", "3.1 mm"), "ibug68_8 (chin; 3.1 mm)");
+  EXPECT_EQ(name_in_words("pogonion", "3.1 mm"), "pogonion (chin; 3.1 mm)");
+  EXPECT_EQ(name_in_words("head_1", "3.1 mm"), "head_1 (3.1 mm)");
+  for (const char* name : {"head_1", "my_marker_L", "ibug68_68", "_L", ""})
+    EXPECT_EQ(name_in_words(name), name);
+}
+
 }  // namespace
 }  // namespace hyperex::face

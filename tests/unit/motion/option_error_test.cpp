@@ -60,19 +60,42 @@ TEST(OptionError, OfAHeadWithoutRigidPointsNamesTheOption) {
   EXPECT_THAT(error.sentence("KEY"), HasSubstr("0 of them. KEY names others; "));
 }
 
-// A recording of seven points of the mouth with still points of its own. These are the answer, so
-// that they must come first and none may be cut off.
-TEST(OptionError, OfAHeadWithoutRigidPointsNamesThoseOfTheHeadFirst) {
+/// Two samples of seven points of the mouth, and of others.
+Motion mouth_and(const std::vector<std::string>& others) {
   Motion m;
   m.source = "take.csv";
-  for (const char* name : {"ibug68_48", "ibug68_54", "ibug68_51", "ibug68_57", "ibug68_8",
-                           "ibug68_58", "ibug68_56", "head_1", "head_2", "head_3"})
-    m.names.emplace_back(name);
+  m.names = {"ibug68_48", "ibug68_54", "ibug68_51", "lower lip",
+             "ibug68_8",  "ibug68_58", "ibug68_56"};
+  m.names.insert(m.names.end(), others.begin(), others.end());
   m.time_s = {0, 0.1};
   m.positions.assign(2, Points::Random(Eigen::Index(m.names.size()), 3));
-  EXPECT_THAT(thrown_by([&] { stabilise(m, {}); }).what(),
-              HasSubstr("other points are head_1, head_2, head_3, ibug68_48, ibug68_54, ibug68_51, "
-                        "ibug68_57, ibug68_8, ibug68_58, ibug68_56"));
+  return m;
+}
+
+// The answer comes alone: points of the mouth must not be named in their place.
+TEST(OptionError, OfAHeadWithoutRigidPointsNamesThoseOfTheHeadAlone) {
+  const auto refused = [](const Motion& m) {
+    return std::string(thrown_by([&] { stabilise(m, {}); }).what());
+  };
+  EXPECT_THAT(refused(mouth_and({"ibug68_36", "head_1", "head_2"})),
+              EndsWith("the motion has 1 of them. rigid_points names others; the motion's other "
+                       "points, without those of mouth and chin, are head_1, head_2"));
+  EXPECT_THAT(refused(mouth_and({"head_1", "head_2"})),
+              EndsWith("the motion has 0 of them. rigid_points finds too few others, as the "
+                       "motion's other points move with mouth and chin: record three such points "
+                       "or more"));
+}
+
+TEST(OptionError, PointsOfTheMouthCarryNoHead) {
+  const Motion m = mouth_and({"head_1", "head_2", "head_3"});
+  EXPECT_THAT(
+      thrown_by([&] {
+        check_pose_points(m, {"ibug68_8", "lower lip", "head_1", "head_2"});
+      }).what(),
+      EndsWith(
+          "rigid_points names points that move with mouth and chin: ibug68_8 (chin), lower lip"));
+  EXPECT_NO_THROW(check_pose_points(m, {"ibug68_8", "head_3", "head_1", "head_2"}))
+      << "three others carry it";
 }
 
 TEST(OptionError, OfATableOfExpressionsSaysWhichItIs) {

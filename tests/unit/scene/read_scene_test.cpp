@@ -5,6 +5,7 @@
 #include <random>
 
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/variant_presets.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
 #include "unit/scene/scene_files.hpp"
 
@@ -245,6 +246,21 @@ TEST(ReadScene, AVariantWithoutANameIsCalledAsItsPreset) {
   EXPECT_THAT(only_problem(std::string(smallest) + "[[variant]]\npreset = \"palsy_complet_R\"\n"),
               HasSubstr("variant[0].preset = \"palsy_complet_R\": expected another name; did you "
                         "mean palsy_complete_R?"));
+}
+
+TEST(ReadScene, OfAnUnknownPresetTheMeaningIsSoughtBeforeTheSpelling) {
+  EXPECT_EQ(expected_preset("palsy_incomplete_L"), "another name; did you mean palsy_partial_L?");
+  EXPECT_EQ(expected_preset("Palsy_Total_right"), "another name; did you mean palsy_complete_R?");
+  EXPECT_EQ(expected_preset("palsy_incomplete"),
+            "another name; did you mean palsy_partial_R or palsy_partial_L?")
+      << "a side is not guessed";
+  EXPECT_EQ(expected_preset("agd"), "another name; did you mean aged?");
+  for (const char* name : {"", "stroke", "palsy_upper_L"})
+    EXPECT_THAT(
+        expected_preset(name),
+        testing::AllOf(HasSubstr("one of palsy_complete_R, palsy_complete_L, palsy_partial_R"),
+                       HasSubstr("scar_cheek_L"), HasSubstr("aged")))
+        << name;
 }
 
 TEST(ReadScene, VariantsAreLeftOutByAnOptionAndNotByAKey) {

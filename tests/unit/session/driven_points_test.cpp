@@ -98,12 +98,28 @@ motion::Motion with_moving(const std::vector<std::pair<std::string, double>>& na
 TEST(DrivenPoints, WhatElseMovesIsSaidAwayFromTheLipsFirst) {
   const scene::Scene scene;
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_62", 6}, {"cheek_L", 3}, {"my_mark", 4.26}})),
-            "recorded, but not driven: my_mark (4.3 mm), cheek_L (3.0 mm), ibug68_62 (6.0 mm); "
-            "drive.points selects the driven points");
+            "recorded, but not driven: my_mark (4.3 mm), cheek_L (cheek, left; 3.0 mm), ibug68_62 "
+            "(edge of the upper lip, middle; 6.0 mm); drive.points selects the driven points");
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_3", 9}, {"glabella", 2.1}})),
-            "recorded, but not driven: outline of the face (9.0 mm), glabella (2.1 mm); "
+            "recorded, but not driven: outline of the face (9.0 mm), glabella (between the "
+            "brows; 2.1 mm); "
             "drive.points selects the driven points");
   EXPECT_EQ(not_driven(scene, with_moving({{"cheek_L", 1.9}})), "") << "as noise does";
+}
+
+TEST(DrivenPoints, WhatMovesAfterTheEndOfTheRunIsNotSaid) {
+  // Each moves by 10 mm a second.
+  const motion::Motion m = with_moving({{"ibug68_3", 10}, {"my_mark", 10}});
+  scene::Scene scene;
+  scene.time.end_s = 0.19;
+  EXPECT_EQ(not_driven(scene, m), "");
+  scene.time.end_s = 0.5;
+  EXPECT_EQ(not_driven(scene, m),
+            "recorded, but not driven: outline of the face (5.0 mm), my_mark (5.0 mm); "
+            "drive.points selects the driven points");
+  motion::Motion later = m;
+  for (double& t : later.time_s) t += 20;
+  EXPECT_EQ(not_driven(scene, later), not_driven(scene, m)) << "times count from the first sample";
 }
 
 TEST(DrivenPoints, OfManyThatMoveFourAreNamed) {
@@ -132,14 +148,16 @@ TEST(DrivenPoints, WhatNeedsNoDriveIsNotSaid) {
   EXPECT_EQ(not_driven(scene, m), "");
   // A landmark that has two names is listed once.
   EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_30", 3}, {"pronasale", 3}})),
-            "recorded, but not driven: ibug68_30 (3.0 mm); drive.points selects the driven points");
+            "recorded, but not driven: ibug68_30 (tip of the nose; 3.0 mm); drive.points selects "
+            "the driven points");
 }
 
 TEST(DrivenPoints, APlaceThatDrivesUnderAnotherNameIsNotSaid) {
   const scene::Scene scene;
   motion::Motion m = with_moving({{"ibug68_8", 8}, {"pogonion", 8}});
-  EXPECT_EQ(not_driven(scene, m),
-            "recorded, but not driven: pogonion (8.0 mm); drive.points selects the driven points")
+  EXPECT_EQ(
+      not_driven(scene, m),
+      "recorded, but not driven: pogonion (chin; 8.0 mm); drive.points selects the driven points")
       << "a marker of its own";
   for (Points& at : m.positions) at.row(m.index_of("pogonion")) = at.row(m.index_of("ibug68_8"));
   EXPECT_EQ(not_driven(scene, m), "");

@@ -3,6 +3,7 @@
 // has a scene for each warning.
 #include <gmock/gmock.h>
 
+#include <map>
 #include <random>
 
 #include "apps/good_inputs.hpp"
@@ -117,15 +118,85 @@ TEST_F(InputNotes, WarnOfRigidPointsThatMove) {
   const auto with = [&](const std::string& points) {
     return notes({"motion.rigid_points=[" + points + "]"});
   };
-  const std::vector<Note> of_mouth = with(R"("ibug68_48", "ibug68_57", "ibug68_54")");
-  EXPECT_THAT(of_mouth, Contains(AllOf(is_warning("head.pose_unknown"), says("other points"))));
-  EXPECT_THAT(of_mouth, Not(Contains(has_id("head.pose_uncertain"))));
+  EXPECT_THAT(test::refusal([&] { with(R"("ibug68_48", "ibug68_57", "ibug68_54")"); }),
+              AllOf(testing::HasSubstr("motion.rigid_points names points that move with mouth and "
+                                       "chin: ibug68_48 (corner of the mouth, right)"),
+                    testing::HasSubstr("forehead")));
   // Distances within the mouth hardly change as it opens: those from the nose do.
   const std::vector<Note> mixed = with(R"("ibug68_27", "ibug68_36", "ibug68_45", "ibug68_57")");
   EXPECT_THAT(mixed, Contains(AllOf(is_warning("head.points_not_rigid"), says("ibug68_57 ("),
                                     Not(says("ibug68_36")))));
   const std::vector<Note> sound = with(R"("ibug68_27", "ibug68_36", "ibug68_45", "ibug68_30")");
   EXPECT_THAT(notes_of(sound, Severity::warning), IsEmpty());
+  open(0, 81, [](motion::Motion& m) {
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      m.positions[k](m.index_of("ibug68_17"), 1) += 0.020 * double(k) / 80;
+  });
+  const std::vector<Note> of_brow = with(R"("ibug68_17", "ibug68_26", "ibug68_29")");
+  EXPECT_THAT(of_brow, Contains(AllOf(is_warning("head.pose_unknown"), says("other points"))));
+  EXPECT_THAT(of_brow, Not(Contains(has_id("head.pose_uncertain"))));
+}
+
+/// The columns of motion.csv by other names.
+void rename_points(motion::Motion& m, const std::map<std::string, std::string>& names) {
+  for (std::string& name : m.names)
+    if (const auto found = names.find(name); found != names.end()) name = found->second;
+}
+
+TEST_F(InputNotes, ComeAfterNamesThatNoScanHas) {
+  const auto rename = [](motion::Motion& m) {
+    keep_mouth_and_headband(m);
+    rename_points(m, {{"ibug68_48", "right mouth corner"},
+                      {"ibug68_54", "left mouth corner"},
+                      {"ibug68_51", "upper lip"},
+                      {"ibug68_57", "lower lip"},
+                      {"ibug68_8", "chin"},
+                      {"ibug68_58", "lower lip right"},
+                      {"ibug68_56", "lower lip left"}});
+  };
+  open(0, 16, rename);
+  const std::string rigid =
+      R"(motion.rigid_points=["head_1", "head_2", "head_3", "head_4", "head_5", "head_6"])";
+  const std::string at_the_scan = test::refusal([&] { notes({rigid}); });
+  EXPECT_THAT(at_the_scan,
+              AllOf(testing::HasSubstr("shares 0 point names with the scan's landmarks"),
+                    testing::HasSubstr("its points are right mouth corner, left mouth corner,"),
+                    testing::HasSubstr("did you mean ibug68_48 by right mouth corner, ibug68_54 by "
+                                       "left mouth corner, ibug68_51 by upper lip, ibug68_57 by "
+                                       "lower lip, ibug68_8 by chin?")));
+  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
+  EXPECT_EQ(test::refusal([&] { notes({rigid}); }), at_the_scan)
+      << "landmarks need not be found for that";
+}
+
+TEST_F(InputNotes, ComeAfterADefaultPointThatTheRecordingLacks) {
+  open(0, 16, [](motion::Motion& m) {
+    keep_mouth_and_headband(m);
+    rename_points(m, {{"ibug68_48", "mole"}});
+  });
+  const std::vector<std::string> rigid = {
+      R"(motion.rigid_points=["head_1", "head_2", "head_3", "head_4", "head_5", "head_6"])"};
+  const std::string said = test::refusal([&] { notes(rigid); });
+  EXPECT_THAT(said,
+              AllOf(testing::HasSubstr("scene.toml: drive.points: expected to be given, as"),
+                    testing::HasSubstr("motion.csv lacks ibug68_48 (corner of the mouth, right)"),
+                    testing::HasSubstr("it has mole, ibug68_54 (corner of the mouth, left), "),
+                    Not(testing::HasSubstr("did you mean")), Not(testing::HasSubstr("..."))));
+  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
+  EXPECT_EQ(test::refusal([&] { notes(rigid); }), said) << "landmarks need not be found for that";
+}
+
+TEST_F(InputNotes, WithoutPointsOfTheHeadSayWhatElseWorks) {
+  open(0, 16, [](motion::Motion& m) {
+    keep_mouth_and_headband(m);
+    for (Points& sample : m.positions) sample.conservativeResize(7, Eigen::NoChange);
+    m.names.resize(7);
+  });
+  EXPECT_THAT(test::refusal([&] { notes(); }),
+              AllOf(testing::HasSubstr("motion.rigid_points finds too few others, as the motion's "
+                                       "other points move with mouth and chin"),
+                    testing::HasSubstr("hyperex symmetry works without them"),
+                    Not(testing::HasSubstr("ibug68_8"))));
 }
 
 TEST_F(InputNotes, ComeAfterNamesOfRigidPoints) {
@@ -173,8 +244,9 @@ TEST_F(InputNotes, NameThePointThatDoesNotFitInPlaceOfAMisfit) {
     for (auto& sample : m.positions) sample(m.index_of("ibug68_54"), 2) += 0.06;
   });
   EXPECT_GT(read_inputs(scene::read_scene(folder_ / "scene.toml"), Extent::quick).motion.rms_mm, 5);
-  EXPECT_THAT(warnings(), ElementsAre(AllOf(is_warning("recording.point_off"),
-                                            says("ibug68_54 lies 60.0 mm"))));
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("recording.point_off"),
+                                says("ibug68_54 (corner of the mouth, left) lies 60.0 mm"))));
 }
 
 TEST_F(InputNotes, NameAWrongLandmarkOnce) {

@@ -77,7 +77,8 @@ TEST(MisplacedPoints, AreNamedWithTheirDistance) {
   EXPECT_EQ(found.others.common, 67u);
   EXPECT_THAT(misplaced_warning(found),
               Optional(AllOf(is_warning("recording.point_off"), is_about("motion.file"),
-                             says("ibug68_54 lies 20.0 mm"), says("the other 67 points"))));
+                             says("ibug68_54 (corner of the mouth, left) lies 20.0 mm"),
+                             says("the other 67 points"))));
 }
 
 TEST(MisplacedPoints, IncludeAMarkerAtTheOrigin) {
@@ -100,9 +101,11 @@ TEST(MisplacedPoints, AreNamedUpToThreeTheFarthestFirst) {
   recorded["ibug68_8"].z() -= 0.025;
   const auto note = misplaced_warning(misplaced_points(seen(recorded), of_embedded_face()));
   ASSERT_TRUE(note);
-  EXPECT_THAT(note, Optional(AllOf(says("5 points"), says("ibug68_30 lies 50.0 mm"),
-                                   says("ibug68_19 40.0 mm"), says("ibug68_54 30.0 mm"),
-                                   says("and 2 more"))));
+  EXPECT_THAT(
+      note,
+      Optional(AllOf(says("5 points"), says("ibug68_30 (tip of the nose) lies 50.0 mm"),
+                     says("ibug68_19 (middle of the brow, right) 40.0 mm"),
+                     says("ibug68_54 (corner of the mouth, left) 30.0 mm"), says("and 2 more"))));
   EXPECT_THAT(note->text, Not(HasSubstr("ibug68_8")));
   EXPECT_EQ(misplaced_warning(MisplacedPoints{}), std::nullopt);
 }

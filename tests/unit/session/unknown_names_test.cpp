@@ -41,6 +41,15 @@ TEST(DidYouMeanRegion, IsSaidOfNamesOfRegionsAlone) {
   EXPECT_EQ(did_you_mean_region("tissue.region[0].name", "\"elbow\""), "");
 }
 
+TEST(DidYouMean, IsNoOtherPartOfTheFace) {
+  const std::vector<std::string> there = {"ibug68_8", "ibug68_54", "cheilion_R", "head_3"};
+  EXPECT_EQ(did_you_mean("ibug68_48", there), "; did you mean cheilion_R?");
+  EXPECT_EQ(did_you_mean("ibug_54", there), "; did you mean ibug68_54?");
+  EXPECT_EQ(did_you_mean("hed_3", there), "; did you mean head_3?");
+  for (const char* name : {"ibug68_58", "ibug68_88", "ibug68_84", "alare_L"})
+    EXPECT_EQ(did_you_mean(name, there), "") << name;
+}
+
 TEST(MisspeltLandmarks, AreTakenOutOfTheUnknown) {
   std::vector<std::string> unknown = {"cheilon_L", "my_own_mark"};
   EXPECT_THAT(misspelt_landmarks(unknown),

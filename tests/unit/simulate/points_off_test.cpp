@@ -73,7 +73,8 @@ TEST(ReasonOff, IsAPointCloserThanTheElementsThatMovesDifferently) {
   point.neighbour = "ibug68_58";
   point.neighbour_m = 0.0042;
   const std::string reason = reason_of(point, driven_by(DriveBy::displacement), false);
-  EXPECT_THAT(reason, AllOf(HasSubstr("4.2 mm from ibug68_58"), HasSubstr("12.0 mm")));
+  EXPECT_THAT(reason, AllOf(HasSubstr("4.2 mm from ibug68_58 (inner part of the lower lip, right)"),
+                            HasSubstr("12.0 mm")));
   EXPECT_NE(reason_of(point, driven_by(DriveBy::muscles), false), reason)
       << "forces meet such points as exactly as others";
   point.neighbour_m = 0.0125;

@@ -60,11 +60,7 @@ AlignedMotion align(const motion::Motion& stabilised, const io::Landmarks& landm
                     AlignmentMethod method) {
   const CommonPoints pairs = common_points(stabilised, landmarks);
   if (pairs.names.size() < 3 || spread_off_line(pairs.scan) < 0.05)
-    throw InputError(
-        stabilised.source,
-        fmt::format("shares {} point names with the scan's landmarks; expected at least "
-                    "three, not on one line (e.g. ibug68_36, ibug68_45, ibug68_30)",
-                    pairs.names.size()));
+    throw too_few_common(stabilised, pairs.names);
   AlignedMotion out;
   out.motion = stabilised;
   out.common = pairs.names;

@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/face/point_words.hpp"
+
 namespace hyperex::simulate {
 namespace {
 
@@ -110,7 +112,8 @@ std::string reason_of(const FarthestPoint& point, const SimulationOptions& optio
         "{} is {:.1f} mm from {}, closer than the elements' edges of {:.1f} mm: "
         "points that lie closer together than the elements and move differently are "
         "met only on average",
-        point.name, 1e3 * point.neighbour_m, point.neighbour, 1e3 * point.edge_m);
+        point.name, 1e3 * point.neighbour_m, face::name_in_words(point.neighbour),
+        1e3 * point.edge_m);
   if (touched || !by_forces) return "";
   if (changes_muscles(options.muscles))
     return "muscles.gain or muscles.mirrored changes the forces that were found for them";

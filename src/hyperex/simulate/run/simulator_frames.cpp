@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/simulate/run/points_off.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
@@ -97,7 +98,8 @@ void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const Po
   std::string names;
   for (std::size_t i = 0; i < off_m.size(); ++i) {
     report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
-    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + driven.names[i];
+    if (off_m[i] > kDrivenWithin_m)
+      names += (names.empty() ? "" : ", ") + face::name_in_words(driven.names[i]);
   }
   if (names.empty()) return;
   const std::string reason =

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "hyperex/session/recording_names.hpp"
+
+#include <algorithm>
+#include <iterator>
+
+#include "hyperex/core/error.hpp"
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/motion/option_error.hpp"
+#include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/still_points.hpp"
+#include "hyperex/simulate/drive/common_points.hpp"
+
+namespace hyperex::session {
+
+void check_head_points(const motion::Motion& motion, const std::vector<std::string>& rigid_points) {
+  try {
+    motion::check_pose_points(motion, rigid_points);
+  } catch (const motion::OptionError& error) {
+    std::string sentence = error.sentence("motion.rigid_points");
+    if (motion::proposed_rigid_points(motion).empty())
+      sentence +=
+          "; hyperex symmetry works without them, and its excursions then contain the motion of "
+          "the head";
+    throw InputError(sentence);
+  }
+}
+
+void check_landmark_names(const motion::Motion& motion) {
+  constexpr std::size_t fewest = 3;
+  const auto& landmarks = face::canonical_face().landmarks;
+  std::vector<std::string> shared;
+  std::ranges::copy_if(motion.names, std::back_inserter(shared),
+                       [&](const std::string& name) { return landmarks.contains(name); });
+  if (shared.size() < fewest) throw simulate::too_few_common(motion, shared);
+}
+
+std::vector<std::string> doubts_of_names(const motion::Motion& motion,
+                                         const std::vector<std::string>& rigid_points) {
+  std::vector<std::string> doubts;
+  const auto collect = [&](const auto& check) {
+    try {
+      check();
+    } catch (const InputError& error) {
+      doubts.emplace_back(error.what());
+    }
+  };
+  collect([&] { check_head_points(motion, rigid_points); });
+  collect([&] { check_landmark_names(motion); });
+  return doubts;
+}
+
+}  // namespace hyperex::session
