@@ -65,7 +65,7 @@ constexpr NoteKind kKinds[] = {
     "A column of a table of weights is no blend shape and is at most two letters from one; it is "
     "left out."),
   warning("recording.coarse", "motion.file",
-    "The samples are more than 0.1 s apart: a curve through them may go beyond them."),
+    "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
   warning("recording.shapes_lost", "motion.arkit",
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.fits_badly", "motion.unit",

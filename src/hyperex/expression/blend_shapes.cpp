@@ -241,6 +241,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   motion::Motion out;
   out.source = shapes.file.string();
   out.time_s = shapes.time_s;
+  out.smooth_up_to_s = 0;
   out.lines = shapes.lines;
   for (const auto& [name, vertices] : model.landmarks) out.names.push_back(name);
   for (Eigen::Index k = 0; k < alpha.rows(); ++k) {

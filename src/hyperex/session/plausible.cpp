@@ -17,7 +17,7 @@
 namespace hyperex::session {
 namespace {
 
-constexpr double kLongestStep_s = 0.5, kLongestSmoothStep_s = 0.1;
+constexpr double kLongestStep_s = 0.5;
 constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
 constexpr double kMisfit_mm = 10, kLeastScale = 0.8, kMostScale = 1.25;
 // By the 68 points: 3.1 to 3.9 mm between the three people of one rig, 5.3 to 8.8 mm in ten of
@@ -139,13 +139,14 @@ std::optional<Note> timing_warning(const motion::Motion& m) {
 std::optional<Note> coarse_warning(const motion::Motion& m) {
   if (m.time_s.size() < 3) return std::nullopt;
   const double step_s = median_step(m.time_s);
-  if (step_s <= kLongestSmoothStep_s || step_s > kLongestStep_s) return std::nullopt;
+  constexpr double smooth_s = motion::Motion::kSmoothUpTo_s;
+  if (step_s <= smooth_s || step_s > kLongestStep_s) return std::nullopt;
   return make_warning(
       "recording.coarse",
-      fmt::format("the recording has a sample every {:.2g} s (median): between samples a curve is "
-                  "laid through them, which may go beyond them by some millimetres; expected: at "
-                  "most {:g} s apart",
-                  step_s, kLongestSmoothStep_s));
+      fmt::format("the recording has a sample every {:.2g} s (median): quicker motions "
+                  "between two samples are lost, as no point goes beyond its places in these; "
+                  "expected: at most {:g} s apart",
+                  step_s, smooth_s));
 }
 
 std::optional<Note> stillness_warning(const motion::Motion& stabilised) {

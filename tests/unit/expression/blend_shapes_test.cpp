@@ -8,6 +8,7 @@
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
+#include "hyperex/motion/resample.hpp"
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::expression {
@@ -217,6 +218,20 @@ TEST(OpenFaceTable, NamesUnitsThatTheFaceHas) {
   std::vector<std::string> notes;
   motion_of(all, canonical_model(), notes);
   EXPECT_TRUE(notes.empty()) << notes.front();
+}
+
+TEST_F(BlendShapesFile, WeightsAreHeldBetweenEqualKeys) {
+  const motion::Motion motion = moved_by(
+      read_arkit(write("keys.csv", "time_s,jawOpen\n0,0\n0.2,0\n0.3,1\n1.3,1\n1.5,0\n2,0\n")));
+  const motion::MotionCurve curve(motion);
+  EXPECT_LT((curve.at(0.8) - motion.positions[2]).cwiseAbs().maxCoeff(), 1e-12);
+  const double at_rest = motion.positions[0](motion.index_of("ibug68_8"), 1);
+  const double open = motion.positions[2](motion.index_of("ibug68_8"), 1);
+  EXPECT_LT(open, at_rest - 0.01);
+  for (double t = 0; t < 2; t += 0.01) {
+    const double y = curve.at(t)(motion.index_of("ibug68_8"), 1);
+    EXPECT_TRUE(y >= open - 1e-12 && y <= at_rest + 1e-12) << t;
+  }
 }
 
 TEST_F(BlendShapesFile, RefusesWhatItCannotRead) {
