@@ -64,6 +64,9 @@ constexpr NoteKind kKinds[] = {
   warning("recording.column_misspelt", "motion.arkit",
     "A column of a table of weights is no blend shape and is at most two letters from one; it is "
     "left out."),
+  warning("recording.side_missing", "motion.arkit",
+    "A table of weights has no column for a shape of one side whose counterpart exceeds 0.05; it "
+    "counts as 0. Told only where another shape has both sides."),
   warning("recording.coarse", "motion.file",
     "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
   warning("recording.shapes_lost", "motion.arkit",

@@ -12,6 +12,19 @@ namespace hyperex::expression {
 /// skin.
 std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model);
 
+/// Shapes of one side of the face without a column, whose counterparts exceed 0.05. They count as
+/// 0, so left and right differ.
+struct MissingSides {
+  std::string text;  ///< one sentence; empty where there are none
+  /// Whether some other shape has columns for both sides. Otherwise the recording may well be meant
+  /// to be of one side.
+  bool doubtful = false;
+};
+
+/// Looks at shapes that exist on either side. Those of gaze and those that shift the jaw or the
+/// mouth to one side are left out: they are directions.
+MissingSides missing_sides(const BlendShapes& shapes);
+
 /// An interval of 0.3 s in which the weights are nearer to rest (all weights 0) than at the start.
 struct RestInWeights {
   double from_s = 0, to_s = 0;                  ///< from the first sample

@@ -48,6 +48,12 @@ void warn_of_weights(const scene::MotionOptions& options, const expression::Blen
                      const expression::FaceModel& model, Inputs& in) {
   for (const std::string& column : shapes.misspelt)
     in.notes.push_back(make_warning("recording.column_misspelt", "motion: " + column));
+  if (const expression::MissingSides missing = expression::missing_sides(shapes);
+      !missing.text.empty())
+    in.notes.push_back(
+        missing.doubtful
+            ? make_warning("recording.side_missing", "motion: " + missing.text)
+            : make_note("recording.expressions", "motion: " + missing.text, "motion.arkit"));
   const std::string lost = options.arkit.empty() ? "" : expression::lost_shapes(shapes, model);
   if (!lost.empty())
     in.notes.push_back(

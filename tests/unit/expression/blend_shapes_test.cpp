@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/expression/blend_shapes.hpp"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <filesystem>
 
@@ -218,6 +220,44 @@ TEST(OpenFaceTable, NamesUnitsThatTheFaceHas) {
   std::vector<std::string> notes;
   motion_of(all, canonical_model(), notes);
   EXPECT_TRUE(notes.empty()) << notes.front();
+}
+
+TEST_F(BlendShapesFile, AMissingSideIsToldWhereOthersHaveBoth) {
+  const auto missing = [&](const std::string& table) {
+    return missing_sides(read_arkit(write("sides.csv", table)));
+  };
+  const MissingSides told =
+      missing("time_s,EyeBlinkLeft,EyeBlinkRight,MouthSmileRight\n0,0,0,0\n1,0,0,0.92\n");
+  EXPECT_THAT(told.text, testing::HasSubstr("MouthSmileLeft (MouthSmileRight reaches 0.92)"));
+  EXPECT_TRUE(told.doubtful);
+  const MissingSides one_sided = missing("time_s,mouthSmileRight,jawOpen\n0,0,0\n1,1,1\n");
+  EXPECT_THAT(one_sided.text, testing::HasSubstr("mouthSmileLeft"));
+  EXPECT_FALSE(one_sided.doubtful) << "it may be meant";
+  const MissingSides still =
+      missing("time_s,eyeBlinkLeft,eyeBlinkRight,mouthSmileRight\n0,0,0,0\n1,1,1,0.04\n");
+  EXPECT_EQ(still.text, "");
+  EXPECT_FALSE(still.doubtful);
+  EXPECT_EQ(missing("time_s,eyeBlinkLeft,eyeBlinkRight,jawLeft,mouthRight,eyeLookOutLeft\n"
+                    "0,0,0,0,0,0\n1,1,1,1,1,1\n")
+                .text,
+            "")
+      << "directions";
+}
+
+TEST_F(BlendShapesFile, ShapesThatAWholeCaptureLacksAreNamed) {
+  const auto notes = [&](std::size_t without) {
+    std::string head = "time_s", zero = "0", one = "1";
+    for (std::size_t i = 0; i < arkit_shapes().size() - without; ++i)
+      head += "," + arkit_shapes()[i], zero += ",0", one += ",0.5";
+    std::string all;
+    for (const std::string& note :
+         read_arkit(write("all.csv", head + "\n" + zero + "\n" + one + "\n")).notes)
+      all += note;
+    return all;
+  };
+  EXPECT_EQ(notes(0), "");
+  EXPECT_EQ(notes(1), "1 of ARKit's 52 blend shapes have no column and count as 0: tongueOut");
+  EXPECT_EQ(notes(13), "") << "a table of 39";
 }
 
 TEST_F(BlendShapesFile, WeightsAreHeldBetweenEqualKeys) {
