@@ -240,7 +240,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
         mean_of(unit.arkit) / unit.arkit_scale -
         mean_of(unit.arkit_negative) / unit.arkit_negative_scale;
   }
-  if (used.empty())
+  if (used.empty() && std::ranges::none_of(shapes.names, is_gaze))
     throw InputError(shapes.file, fmt::format("moves nothing of the {} face: it has none of {}",
                                               model.name, fmt::join(shapes.names, ", ")));
   std::vector<std::string> idle;

@@ -149,7 +149,7 @@ std::optional<Note> coarse_warning(const motion::Motion& m) {
                   step_s, smooth_s));
 }
 
-std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
+std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;
   for (const Points& sample : stabilised.positions)
@@ -158,6 +158,11 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
           moved > most_m)
         most_m = moved;
   if (stabilised.positions.size() < 2 || most_m >= least_m) return std::nullopt;
+  if (eyes_turn)
+    return make_warning(
+        "recording.nothing_moves",
+        "nothing moves in the recording but the eyes, which turn: no other shape of "
+        "this face has a weight, and so its skin stays at rest");
   return make_warning(
       "recording.nothing_moves",
       fmt::format(

@@ -50,7 +50,8 @@ std::optional<Note> timing_warning(const motion::Motion& m);
 std::optional<Note> coarse_warning(const motion::Motion& m);
 
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
-std::optional<Note> stillness_warning(const motion::Motion& stabilised);
+/// `eyes_turn`: the recording has the gaze.
+std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
 
 /// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) that are exchanged
 /// in the first sample. A pair is exchanged where the vector between its points is opposite to the

@@ -241,7 +241,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
     in.pose_variance =
         metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);
     settle_rest(scene, steady.motion, in);
-    add(in.notes, stillness_warning(steady.motion));
+    add(in.notes, stillness_warning(steady.motion, in.gaze.has_value()));
   }
   return steady;
 }
