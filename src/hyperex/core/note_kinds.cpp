@@ -165,6 +165,8 @@ constexpr NoteKind kKinds[] = {
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
     "The recording does not start at rest: the run begins at rest and blends into it."),
+  note("time.end_of_run", "time.end_s",
+    "time.end_s is after time.start_s, as if it were counted from the start of the recording."),
   note("recording.checked_by_average_face", "scan.landmarks",
     "The scan's landmarks are not known: sides and start were checked against an average face."),
   note("recording.start_unchecked", "motion.rest_s",

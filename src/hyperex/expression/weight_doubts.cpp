@@ -55,7 +55,8 @@ std::optional<Eigen::RowVectorXd> mean_weights(const BlendShapes& shapes, double
 
 }  // namespace
 
-std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model) {
+std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model, double from_s,
+                        double to_s) {
   std::set<std::string> made;
   for (const auto* units : {&model.animation_units, &model.recorded_units})
     for (const DeformationUnit& unit : *units)
@@ -65,13 +66,13 @@ std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model) {
   for (std::size_t c = 0; c < shapes.names.size(); ++c) {
     if (made.contains(shapes.names[c]) || is_gaze(shapes.names[c])) continue;
     double most = 0, at_s = 0;
-    for (std::size_t k = 0; k < shapes.time_s.size(); ++k)
-      if (const double w =
-              shapes.weights(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
-          w > most) {
-        most = w;
-        at_s = shapes.time_s[k] - shapes.time_s.front();
-      }
+    for (std::size_t k = 0; k < shapes.time_s.size(); ++k) {
+      const double t = shapes.time_s[k] - shapes.time_s.front();
+      const double w = shapes.weights(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(c));
+      if (t < from_s - kSlack_s || t > to_s + kSlack_s || !(w > most)) continue;
+      most = w;
+      at_s = t;
+    }
     if (most > kLarge)
       text += fmt::format("{}{} up to {:.2g} at {:.2f} s", text.empty() ? "" : "; ",
                           shapes.names[c], most, at_s);

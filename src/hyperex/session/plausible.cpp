@@ -231,6 +231,17 @@ std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double l
                   scene.time.end_s, held_s, lasts_s + most_held_s));
 }
 
+std::optional<Note> end_of_run_note(const scene::Scene& scene, double lead_s) {
+  const double start_s = scene.motion.start_s, end_s = scene.time.end_s;
+  const double scale = scene.motion.time_scale;
+  if (start_s <= 0 || end_s <= start_s) return std::nullopt;
+  return make_note(
+      "time.end_of_run",
+      fmt::format("time.end_s = {0:g} is counted from the start of the run, and so stands for "
+                  "{1:.4g} s of the recording; to end at {0:g} s of the recording, write {2:.4g}",
+                  end_s, start_s - lead_s + end_s / scale, scale * (end_s - start_s + lead_s)));
+}
+
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
   SkinOff worst;
   for (Eigen::Index v = 0; v < mesh.skin.points.rows(); ++v) {

@@ -67,6 +67,10 @@ void check_length(const scene::Scene& scene, const motion::Motion& m);
 /// lasts `lasts_s` of the run; 0: not known.
 std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double lasts_s);
 
+/// `time.end_of_run`: time.end_s is after time.start_s, as if both were the recording's seconds.
+/// `lead_s`: what the run spends before time.start_s, in the recording's seconds.
+std::optional<Note> end_of_run_note(const scene::Scene& scene, double lead_s);
+
 /// Where the simulated skin is farthest from the scan on the face, that is within 25 mm of a
 /// landmark; ears, neck and border may be far off.
 struct SkinOff {

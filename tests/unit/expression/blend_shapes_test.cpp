@@ -138,6 +138,9 @@ TEST_F(BlendShapesFile, NamesTheShapesThatTheFaceLacks) {
                                        "time_s,jawOpen,tongueOut,cheekPuff,eyeLookUpLeft\n"
                                        "0,0.9,0.1,0.2,0\n82.5,0,0.65,0.3,0.9\n83,0,0.2,0,0\n"));
   EXPECT_EQ(lost_shapes(shapes, canonical_model()), "tongueOut up to 0.65 at 82.50 s");
+  EXPECT_EQ(lost_shapes(shapes, canonical_model(), 0, 82), "") << "another part is run";
+  EXPECT_EQ(lost_shapes(shapes, canonical_model(), 82.6), "");
+  EXPECT_NE(lost_shapes(shapes, canonical_model(), 82.5, 82.5), "");
 }
 
 /// 4 s at 10 Hz: a smile over the first second, a pucker from the third second on.
