@@ -263,6 +263,14 @@ TEST_F(BlendShapesFile, ShapesThatAWholeCaptureLacksAreNamed) {
   EXPECT_EQ(notes(13), "") << "a table of 39";
 }
 
+TEST_F(BlendShapesFile, SemicolonsSeparateAndADecimalCommaIsNamed) {
+  const BlendShapes shapes =
+      read_arkit(write("semi.csv", "Timecode;JawOpen\n13:14:04:31.166;0.1\n13:14:04:32.166;0.2\n"));
+  EXPECT_EQ(shapes.weights(1, 0), 0.2);
+  expect_refused(write("comma.csv", "Timecode;JawOpen\n13:14:04:31,166;0.1\n"),
+                 {":2: ", "Timecode", "a point, not a comma"}, read_arkit);
+}
+
 TEST_F(BlendShapesFile, WeightsAreHeldBetweenEqualKeys) {
   const motion::Motion motion = moved_by(
       read_arkit(write("keys.csv", "time_s,jawOpen\n0,0\n0.2,0\n0.3,1\n1.3,1\n1.5,0\n2,0\n")));
