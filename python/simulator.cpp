@@ -198,10 +198,12 @@ void bind_simulator(py::module_& m) {
             self.change([&](auto& s) { s.start_stream(interval_s); });
           },
           "interval_s"_a, Unlocked(),
-          "For points that come in one sample after the other, interval_s apart; begins at rest.")
+          "For points that come in one sample after the other, interval_s apart; begins at rest. "
+          "Needs options.drive.by = \"displacement\".")
       .def("step", &S::step, "displacement_m"_a, Unlocked(),
            "One sample: the displacement of all points of the motion since rest (P x 3, metres, "
-           "the scan's frame, in the motion's order). Returns the skin's (vertices x 3, float32).")
+           "the scan's frame, in the order of motion.motion.names). Returns the skin's (vertices x "
+           "3, float32).")
       .def("set_options", &S::set_options, "options"_a)
       .def_property_readonly(
           "options", [](const S& self) { return self.simulator().options(); },

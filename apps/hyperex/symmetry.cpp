@@ -19,6 +19,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
 #include "hyperex/io/number.hpp"
 #include "hyperex/io/scan.hpp"
@@ -269,7 +270,10 @@ motion::Motion read(const SymmetryOptions& options, const fs::path& file,
        {wild_weights_sentence(mended), doubtful_weights_sentence(mended)})
     if (!doubt.empty()) spdlog::warn("{}", doubt);
   const expression::BlendShapes& shapes = mended.shapes;
+  const expression::MissingSides missing = expression::missing_sides(shapes);
+  if (missing.doubtful) spdlog::warn("{}", missing.text);
   std::vector<std::string> notes = shapes.notes;
+  if (!missing.doubtful && !missing.text.empty()) notes.push_back(missing.text);
   notes.insert(notes.end(), shapes.misspelt.begin(), shapes.misspelt.end());
   motion::Motion motion = expression::motion_of(shapes, rig, notes);
   for (const std::string& note : notes) std::cerr << note << '\n';

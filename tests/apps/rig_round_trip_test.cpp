@@ -66,6 +66,9 @@ TEST_F(RigRoundTrip, TheTissueFollowsTheRigByTheMillimetresThatItMeasures) {
   EXPECT_THAT(mended.err, HasSubstr("wrong.csv:7, mouthSmileLeft at 0.167 s"));
   EXPECT_NEAR(cell("mended.csv", "cheilion", "excursion_L_mm"),
               cell("rig.csv", "cheilion", "excursion_L_mm"), 0.1);
+  put(in("lost.csv"), "time_s,eyeBlinkLeft,eyeBlinkRight,mouthSmileRight\n0,0,0,0\n0.1,0,0,1\n");
+  const Outcome lost = call("symmetry lost.csv --rig rig.glb");
+  EXPECT_THAT(lost.err, HasSubstr("mouthSmileLeft (mouthSmileRight reaches 1)"));
   const Outcome run = call("run scene.toml --out out --no-cache");
   ASSERT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(run.err, HasSubstr("0.0 mm rms apart before the smooth correction"))

@@ -10,7 +10,7 @@ import warnings
 import numpy as np
 
 import hyperex
-from support import DEMO, coarse_mesh, face, mesh, motion, small_simulator
+from support import DEMO, SOURCE, coarse_mesh, face, mesh, motion, small_simulator
 
 
 class SameNumbers(unittest.TestCase):
@@ -265,6 +265,20 @@ class Stream(unittest.TestCase):
         self.assertEqual(skin_m.shape, run.skin_rest.points_m.shape)
         off_m = np.linalg.norm(skin_m - run.skin_displacement_at(40), axis=1).max()
         self.assertLess(off_m, 0.1 * np.linalg.norm(skin_m, axis=1).max())
+
+    def test_a_scene_with_variants_of_muscles(self):
+        simulator = hyperex.Scene(SOURCE / "examples" / "demo.toml",
+                                  {"mesh.element_size_mm": 10, "mesh.layers": 1}).simulator()
+        with self.assertRaises(hyperex.InputError):
+            simulator.start_stream(1 / 30)
+        options = simulator.options
+        options.drive.by = "displacement"
+        simulator.set_options(options)
+        simulator.start_stream(1 / 30)
+        followed = simulator.motion.motion
+        opened_m = followed.positions_m[20] - simulator.motion.rest_m
+        self.assertEqual(opened_m.shape, (len(followed.names), 3))
+        self.assertGreater(np.abs(simulator.step(opened_m)).max(), 1e-3)
 
     def test_refused(self):
         simulator = small_simulator()

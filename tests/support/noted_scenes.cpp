@@ -139,6 +139,13 @@ void write_weights(const fs::path& folder) {
   put(folder / "weights.csv", table.str());
 }
 
+void lose_a_column(const fs::path& folder) {
+  std::ostringstream table;
+  table << "time_s,eyeBlinkLeft,eyeBlinkRight,mouthSmileRight\n";
+  for (int k = 0; k < 16; ++k) table << k / 30.0 << ",0,0," << k / 15.0 << '\n';
+  put(folder / "lost.csv", table.str());
+}
+
 /// A slow smile at 30 Hz whose weight is wrong in one sample.
 void write_smile_with_a_spike(const fs::path& folder, int wrong) {
   std::ostringstream table;
@@ -250,6 +257,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",
        write_weights},
+      {"recording.side_missing", true, "motion.file=\nmotion.arkit=\"lost.csv\"", lose_a_column},
       {"recording.shapes_lost", true, "motion.file=\nmotion.arkit=\"weights.csv\"", write_weights},
       {"recording.fits_badly", true, "", enlarge_the_motion},
       {"recording.point_off", true, "", displace_a_marker},

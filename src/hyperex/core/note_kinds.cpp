@@ -68,8 +68,11 @@ constexpr NoteKind kKinds[] = {
   warning("recording.column_misspelt", "motion.arkit",
     "A column of a table of weights is no blend shape and is at most two letters from one; it is "
     "left out."),
+  warning("recording.side_missing", "motion.arkit",
+    "A table of weights has no column for a shape of one side whose counterpart exceeds 0.05; it "
+    "counts as 0. Told only where another shape has both sides."),
   warning("recording.coarse", "motion.file",
-    "The samples are more than 0.1 s apart: a curve through them may go beyond them."),
+    "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
   warning("recording.shapes_lost", "motion.arkit",
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.size_implausible", "motion.unit",
@@ -173,6 +176,8 @@ constexpr NoteKind kKinds[] = {
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
     "The recording does not start at rest: the run begins at rest and blends into it."),
+  note("time.end_of_run", "time.end_s",
+    "time.end_s is after time.start_s, as if it were counted from the start of the recording."),
   note("recording.checked_by_average_face", "scan.landmarks",
     "The scan's landmarks are not known: sides and start were checked against an average face."),
   note("recording.start_unchecked", "motion.rest_s",

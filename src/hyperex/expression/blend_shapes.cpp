@@ -68,6 +68,19 @@ void note_left_out(const std::vector<std::string>& columns, BlendShapes& out) {
     out.notes.push_back(fmt::format("columns left out: {}", fmt::join(others, ", ")));
 }
 
+/// Names the shapes that a whole capture lacks. A table with few shapes is made so.
+void note_absent(BlendShapes& out) {
+  constexpr std::size_t whole = 40;
+  if (out.names.size() < whole) return;
+  std::vector<std::string> absent;
+  for (const std::string& name : arkit_shapes())
+    if (std::ranges::find(out.names, name) == out.names.end()) absent.push_back(name);
+  if (!absent.empty())
+    out.notes.push_back(
+        fmt::format("{} of ARKit's {} blend shapes have no column and count as 0: {}",
+                    absent.size(), arkit_shapes().size(), fmt::join(absent, ", ")));
+}
+
 /// Reads the angles of the eyes and takes their names off `left_out`.
 void read_eye_angles(const io::CsvTable& table, BlendShapes& out,
                      std::vector<std::string>& left_out) {
@@ -140,6 +153,7 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen");
   read_eye_angles(table, out, left_out);
   note_left_out(left_out, out);
+  note_absent(out);
   out.weights.resize(rows, static_cast<Eigen::Index>(columns.size()));
   for (Eigen::Index k = 0; k < rows; ++k)
     for (std::size_t c = 0; c < columns.size(); ++c) {
@@ -226,7 +240,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
         mean_of(unit.arkit) / unit.arkit_scale -
         mean_of(unit.arkit_negative) / unit.arkit_negative_scale;
   }
-  if (used.empty())
+  if (used.empty() && std::ranges::none_of(shapes.names, is_gaze))
     throw InputError(shapes.file, fmt::format("moves nothing of the {} face: it has none of {}",
                                               model.name, fmt::join(shapes.names, ", ")));
   std::vector<std::string> idle;
@@ -241,6 +255,7 @@ motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
   motion::Motion out;
   out.source = shapes.file.string();
   out.time_s = shapes.time_s;
+  out.smooth_up_to_s = 0;
   out.lines = shapes.lines;
   for (const auto& [name, vertices] : model.landmarks) out.names.push_back(name);
   for (Eigen::Index k = 0; k < alpha.rows(); ++k) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <limits>
 #include <optional>
 #include <string>
 
@@ -9,8 +10,22 @@ namespace hyperex::expression {
 
 /// The shapes whose weight exceeds 0.3 but which the model does not have, as in "tongueOut up to
 /// 0.65 at 83.2 s; ..."; empty if there are none. Gaze is excluded, because it does not move the
-/// skin.
-std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model);
+/// skin. Only what lies from `from_s` to `to_s` counts, in seconds from the first sample.
+std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model, double from_s = 0,
+                        double to_s = std::numeric_limits<double>::infinity());
+
+/// Shapes of one side of the face without a column, whose counterparts exceed 0.05. They count as
+/// 0, so left and right differ.
+struct MissingSides {
+  std::string text;  ///< one sentence; empty where there are none
+  /// Whether some other shape has columns for both sides. Otherwise the recording may well be meant
+  /// to be of one side.
+  bool doubtful = false;
+};
+
+/// Looks at shapes that exist on either side. Those of gaze and those that shift the jaw or the
+/// mouth to one side are left out: they are directions.
+MissingSides missing_sides(const BlendShapes& shapes);
 
 /// An interval of 0.3 s in which the weights are nearer to rest (all weights 0) than at the start.
 struct RestInWeights {

@@ -16,14 +16,22 @@
 namespace hyperex::io {
 namespace {
 
+/// The number that a cell stands for; nothing for other text.
+std::optional<double> number_in(const std::string& name, std::string_view cell,
+                                const TextReader& number_of) {
+  const auto number = parse_number(cell);
+  return !number && number_of ? number_of(name, cell) : number;
+}
+
 /// Whether a cell is a number with a decimal comma, "0,033", as spreadsheets write it in many
 /// languages.
-bool has_decimal_comma(std::string_view cell) {
+bool has_decimal_comma(const std::string& name, std::string_view cell,
+                       const TextReader& number_of) {
   std::string text(cell.substr(0, 40));
   const auto comma = text.find(',');
   if (comma == std::string::npos) return false;
   text[comma] = '.';
-  return parse_number(text).has_value();
+  return number_in(name, text, number_of).has_value();
 }
 
 double read_cell(const CsvTable& table, int line, std::size_t column, std::string_view cell,
@@ -31,16 +39,16 @@ double read_cell(const CsvTable& table, int line, std::size_t column, std::strin
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   cell = trimmed(cell);
   if (cell.empty()) return nan;
-  auto number = parse_number(cell);
-  if (!number && number_of) number = number_of(table.names[column], cell);
+  const std::string& name = table.names[column];
+  const auto number = number_in(name, cell, number_of);
   if (!number || std::isinf(*number))
-    throw InputError({table.file, line,
-                      fmt::format("column {} ({})", column + 1, quotable(table.names[column])),
+    throw InputError({table.file, line, fmt::format("column {} ({})", column + 1, quotable(name)),
                       quotable(cell),
-                      has_decimal_comma(cell) ? std::string("a finite number with a point, not a "
-                                                            "comma, before its decimals (save as "
-                                                            "CSV in English, or replace , by .)")
-                                              : "a finite number, nan or nothing"});
+                      has_decimal_comma(name, cell, number_of)
+                          ? std::string("a finite number with a point, not a "
+                                        "comma, before its decimals (save as "
+                                        "CSV in English, or replace , by .)")
+                          : "a finite number, nan or nothing"});
   return std::isnan(*number) ? nan : *number;
 }
 

@@ -33,6 +33,7 @@ Motion time_scaled(const Motion& motion, double scale) {
   if (!(scale > 0) || !std::isfinite(scale))
     refuse(motion, fmt::format("the scale of time is {:g}; expected a number above 0", scale));
   Motion out = motion;
+  out.smooth_up_to_s *= scale;
   for (double& t : out.time_s) t = motion.time_s.front() + scale * (t - motion.time_s.front());
   return out;
 }

@@ -11,6 +11,9 @@ namespace hyperex::motion {
 /// Named points over time, in metres. All sources of motion produce this type, and the rest of the
 /// program uses only this type. Immutable by convention: each operation returns a new one.
 struct Motion {
+  /// Marked points are sampled densely enough up to this step for a curve that goes on smoothly
+  /// from one sample to the next (MotionCurve).
+  static constexpr double kSmoothUpTo_s = 0.1;
   std::vector<std::string> names;  ///< P of them, unique, e.g. "ibug68_48"
   std::vector<double> time_s;      ///< N of them, strictly rising
   std::vector<Points> positions;   ///< N times P x 3, metres; a row of NaN where not measured
@@ -21,6 +24,9 @@ struct Motion {
   /// The points that were stated to move with the skull alone when the head pose was removed; empty
   /// where none were stated.
   std::vector<std::string> skull_points;
+  /// Where two samples are farther apart than this, no coordinate leaves the range of their values
+  /// between them (MotionCurve). 0 for points that weights of expressions move.
+  double smooth_up_to_s = kSmoothUpTo_s;
   std::vector<int> lines;  ///< line of `source` of each sample, for errors; empty where not known
   std::string source;      ///< what to name in errors: the file, or empty
   std::string unit_note;   ///< which length unit was read and why, for the log

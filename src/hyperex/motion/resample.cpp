@@ -4,24 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace hyperex::motion {
 
 namespace {
-
-Eigen::MatrixXd monotone_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y) {
-  Eigen::MatrixXd m = Eigen::MatrixXd::Zero(y.rows(), y.cols());
-  for (Eigen::Index i = 1; i + 1 < y.rows(); ++i) {
-    const std::size_t k = std::size_t(i);
-    const double h0 = t[k] - t[k - 1], h1 = t[k + 1] - t[k];
-    const double w0 = 2 * h1 + h0, w1 = h1 + 2 * h0;
-    for (Eigen::Index c = 0; c < y.cols(); ++c) {
-      const double d0 = (y(i, c) - y(i - 1, c)) / h0, d1 = (y(i + 1, c) - y(i, c)) / h1;
-      if (d0 * d1 > 0) m(i, c) = (w0 + w1) / (w0 / d0 + w1 / d1);
-    }
-  }
-  return m;
-}
 
 /// The interval of rising times that contains t, and the share of the interval before t.
 struct Place {
@@ -70,6 +57,25 @@ Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixX
   return m;
 }
 
+Eigen::MatrixXd bounded_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y,
+                               double smooth_up_to_s) {
+  constexpr double slack_s = 1e-9;  // of times that are written as decimals
+  Eigen::MatrixXd m = spline_slopes(t, y);
+  for (Eigen::Index i = 1; i + 1 < y.rows(); ++i) {
+    const std::size_t k = std::size_t(i);
+    const double h0 = t[k] - t[k - 1], h1 = t[k + 1] - t[k];
+    if (std::max(h0, h1) <= smooth_up_to_s + slack_s) continue;
+    for (Eigen::Index c = 0; c < y.cols(); ++c) {
+      const double d0 = (y(i, c) - y(i - 1, c)) / h0, d1 = (y(i + 1, c) - y(i, c)) / h1;
+      const double most = 3 * std::min(std::abs(d0), std::abs(d1));
+      const bool turns = d0 * d1 <= 0;
+      m(i, c) =
+          turns ? 0 : std::copysign(std::clamp(std::copysign(1.0, d0) * m(i, c), 0.0, most), d0);
+    }
+  }
+  return m;
+}
+
 MotionCurve::MotionCurve(const Motion& motion, Interpolation interpolation)
     : time_s_(motion.time_s) {
   if (motion.positions.empty()) refuse(motion, "there are no samples");
@@ -79,8 +85,8 @@ MotionCurve::MotionCurve(const Motion& motion, Interpolation interpolation)
     value_.row(Eigen::Index(k)) =
         Eigen::Map<const Eigen::RowVectorXd>(motion.positions[k].data(), 3 * points);
   if (!value_.allFinite()) refuse(motion, "there are gaps: fill them before interpolating in time");
-  if (interpolation == Interpolation::cubic) slope_ = spline_slopes(time_s_, value_);
-  if (interpolation == Interpolation::monotone) slope_ = monotone_slopes(time_s_, value_);
+  if (interpolation == Interpolation::cubic)
+    slope_ = bounded_slopes(time_s_, value_, motion.smooth_up_to_s);
 }
 
 Points MotionCurve::at(double t_s) const {

@@ -9,17 +9,22 @@ namespace hyperex::motion {
 
 enum class Interpolation {
   linear,  ///< velocity jumps at the samples
-  /// C2 cubic spline through the samples with zero velocity at both ends. A motion that starts from
-  /// rest and is held after its last sample then has no jump of velocity anywhere. May overshoot.
-  cubic,
-  /// C1 cubic Hermite with the slopes of Fritsch and Butland (SIAM J. Sci. Stat. Comput. 5, 1984).
-  /// Between two samples it stays within the range of their values.
-  monotone
+  /// Cubic with the slopes of bounded_slopes() by Motion::smooth_up_to_s. A motion that starts from
+  /// rest and is held after its last sample has no jump of velocity anywhere.
+  cubic
 };
 
 /// First derivatives, at the rising times `t`, of the C2 cubic splines through the columns of `y`
 /// (one row per time). The derivatives at both ends are zero.
 Eigen::MatrixXd spline_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y);
+
+/// Those slopes, bounded beside steps of more than `smooth_up_to_s`: there a column stays within
+/// the range of the two samples between them. At a sample beside such a step the slope is 0 where
+/// the column turns or is held. Elsewhere it is at most three times the lesser of the two mean
+/// slopes beside it (Fritsch and Carlson, SIAM J. Numer. Anal. 17, 1980). The second derivative may
+/// jump at these samples; away from them the columns are C2.
+Eigen::MatrixXd bounded_slopes(const std::vector<double>& t, const Eigen::MatrixXd& y,
+                               double smooth_up_to_s);
 
 /// The positions of a motion as functions of time: built once, evaluated often. Before the first
 /// and after the last sample, that sample is held.

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "hyperex/core/quantile.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"

@@ -105,6 +105,15 @@ void close_eyes(FaceRig& rig, const io::Landmarks& landmarks) {
   }
 }
 
+/// Whether a note is about the scan, its tissue or its shapes. Others are about the recording that
+/// make_rig() makes itself, how it drives the face, and keys that a rig does not take.
+bool concerns_the_scan(const Note& note) {
+  constexpr const char* of_the_recording[] = {"recording.", "head.", "time.", "drive.", "forces."};
+  return note.id != "tissue.large_strain" &&
+         std::ranges::none_of(of_the_recording,
+                              [&](const char* start) { return note.id.starts_with(start); });
+}
+
 void refuse_other_keys(const session::Changes& changes) {
   for (const auto& [key, value] : changes)
     if (const std::string section = key.substr(0, key.find('.'));
@@ -131,8 +140,11 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
   given.landmarks = std::move(face.landmarks);
   given.motion = std::make_shared<const motion::Motion>(std::move(motion));
   given.of_weights = true;
+  const auto told = [&](const Note& one) {
+    if (note && concerns_the_scan(one)) note(one);
+  };
   session::FaceSession session(session::SceneSource(std::move(given), all).scene(),
-                               {.certainty = session::Certainty::on_request, .note = note});
+                               {.certainty = session::Certainty::on_request, .note = told});
   session.run_base();
   for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
   const Shapes simulated(session.simulation().performance, std::move(place));

@@ -38,7 +38,8 @@ struct FaceRig {
 ///                 with one down
 ///   tongueOut     nothing: the tongue stays in the mouth
 /// `changes`: keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
-/// (docs/scene.md). `note`: called with each note and warning. Throws InputError, NumericalError.
+/// (docs/scene.md). `note`: called with each note and warning on the scan and its shapes, not
+/// with those on the recording that is made for them. Throws InputError, NumericalError.
 FaceRig make_rig(session::Face face, const session::Changes& changes = {},
                  const std::function<void(const Note&)>& note = {});
 

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <string_view>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/expression/arkit_names.hpp"
+#include "hyperex/io/csv_cells.hpp"
+#include "hyperex/io/number.hpp"
 #include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
@@ -31,13 +34,26 @@ std::string in_one_line(std::string text) {
   return text;
 }
 
+/// The line that names the columns: comments and empty lines may come before it.
+std::string_view names_line(std::string_view table) {
+  io::Lines lines(table);
+  std::string_view line;
+  while (lines.next(line))
+    if (const std::string_view text = io::trimmed(line); !text.empty() && text.front() != '#')
+      return line;
+  return {};
+}
+
 /// Whether a column of a table is a blend shape's, as of a blink alone. Live Link writes them with
 /// a capital letter.
 bool names_a_blend_shape(const std::string& table) {
-  const std::string columns = "," + lower_case(table.substr(0, table.find_first_of("\r\n"))) + ",";
-  return std::ranges::any_of(expression::arkit_shapes(), [&](const std::string& shape) {
-    return columns.find("," + lower_case(shape) + ",") != std::string::npos;
-  });
+  const std::string_view names = names_line(table);
+  return std::ranges::any_of(
+      io::cells_of(names, io::separator_of(names)), [](const std::string& column) {
+        return std::ranges::any_of(expression::arkit_shapes(), [&](const std::string& shape) {
+          return lower_case(column) == lower_case(shape);
+        });
+      });
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace hyperex::session {
 namespace {
 
-constexpr double kLongestStep_s = 0.5, kLongestSmoothStep_s = 0.1;
+constexpr double kLongestStep_s = 0.5;
 constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
 // Measured in six people and all their recordings by 4 to 90 points, against an average face: right
 // names never fit better mirrored. Exchanged ones fit 0.06 to 0.6 times as far mirrored, 5.4 mm or
@@ -196,16 +196,17 @@ std::optional<Note> timing_warning(const motion::Motion& m) {
 std::optional<Note> coarse_warning(const motion::Motion& m) {
   if (m.time_s.size() < 3) return std::nullopt;
   const double step_s = median_step(m.time_s);
-  if (step_s <= kLongestSmoothStep_s || step_s > kLongestStep_s) return std::nullopt;
+  constexpr double smooth_s = motion::Motion::kSmoothUpTo_s;
+  if (step_s <= smooth_s || step_s > kLongestStep_s) return std::nullopt;
   return make_warning(
       "recording.coarse",
-      fmt::format("the recording has a sample every {:.2g} s (median): between samples a curve is "
-                  "laid through them, which may go beyond them by some millimetres; expected: at "
-                  "most {:g} s apart",
-                  step_s, kLongestSmoothStep_s));
+      fmt::format("the recording has a sample every {:.2g} s (median): quicker motions "
+                  "between two samples are lost, as no point goes beyond its places in these; "
+                  "expected: at most {:g} s apart",
+                  step_s, smooth_s));
 }
 
-std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
+std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;
   for (const Points& sample : stabilised.positions)
@@ -214,6 +215,11 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised) {
           moved > most_m)
         most_m = moved;
   if (stabilised.positions.size() < 2 || most_m >= least_m) return std::nullopt;
+  if (eyes_turn)
+    return make_warning(
+        "recording.nothing_moves",
+        "nothing moves in the recording but the eyes, which turn: no other shape of "
+        "this face has a weight, and so its skin stays at rest");
   return make_warning(
       "recording.nothing_moves",
       fmt::format(
@@ -280,6 +286,17 @@ std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double l
                   "face is held as its last sample shows it (expected: at most {:.4g} s, or 0 to "
                   "end with the recording)",
                   scene.time.end_s, held_s, lasts_s + most_held_s));
+}
+
+std::optional<Note> end_of_run_note(const scene::Scene& scene, double lead_s) {
+  const double start_s = scene.motion.start_s, end_s = scene.time.end_s;
+  const double scale = scene.motion.time_scale;
+  if (start_s <= 0 || end_s <= start_s) return std::nullopt;
+  return make_note(
+      "time.end_of_run",
+      fmt::format("time.end_s = {0:g} is counted from the start of the run, and so stands for "
+                  "{1:.4g} s of the recording; to end at {0:g} s of the recording, write {2:.4g}",
+                  end_s, start_s - lead_s + end_s / scale, scale * (end_s - start_s + lead_s)));
 }
 
 SkinOff skin_off_scan(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {

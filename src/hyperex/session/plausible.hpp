@@ -66,7 +66,8 @@ std::optional<Note> timing_warning(const motion::Motion& m);
 std::optional<Note> coarse_warning(const motion::Motion& m);
 
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
-std::optional<Note> stillness_warning(const motion::Motion& stabilised);
+/// `eyes_turn`: the recording has the gaze.
+std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
 
 /// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) that are exchanged
 /// in the first sample. A pair is exchanged where the vector between its points is opposite to the
@@ -81,6 +82,10 @@ void check_length(const scene::Scene& scene, const motion::Motion& m);
 /// `time.beyond_recording`: time.end_s is more than a second after the end of the recording, which
 /// lasts `lasts_s` of the run; 0: not known.
 std::optional<Note> beyond_recording_warning(const scene::Scene& scene, double lasts_s);
+
+/// `time.end_of_run`: time.end_s is after time.start_s, as if both were the recording's seconds.
+/// `lead_s`: what the run spends before time.start_s, in the recording's seconds.
+std::optional<Note> end_of_run_note(const scene::Scene& scene, double lead_s);
 
 /// Where the simulated skin is farthest from the scan on the face, that is within 25 mm of a
 /// landmark; ears, neck and border may be far off.

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
@@ -47,11 +48,28 @@ std::optional<Note> start_of_weights(const scene::MotionOptions& options,
                   rest->from_s, rest->to_s));
 }
 
-void warn_of_weights(const scene::MotionOptions& options, const expression::BlendShapes& shapes,
+/// The last second of the recording, from its first sample, that the run may show: it may be half
+/// a second less, where the run leads the face from rest.
+double last_shown_s(const scene::Scene& scene) {
+  return scene.time.end_s > 0 ? scene.motion.start_s + scene.time.end_s / scene.motion.time_scale
+                              : std::numeric_limits<double>::infinity();
+}
+
+void warn_of_weights(const scene::Scene& scene, const expression::BlendShapes& shapes,
                      const expression::FaceModel& model, Inputs& in) {
+  const scene::MotionOptions& options = scene.motion;
   for (const std::string& column : shapes.misspelt)
     in.notes.push_back(make_warning("recording.column_misspelt", "motion: " + column));
-  const std::string lost = options.arkit.empty() ? "" : expression::lost_shapes(shapes, model);
+  if (const expression::MissingSides missing = expression::missing_sides(shapes);
+      !missing.text.empty())
+    in.notes.push_back(
+        missing.doubtful
+            ? make_warning("recording.side_missing", "motion: " + missing.text)
+            : make_note("recording.expressions", "motion: " + missing.text, "motion.arkit"));
+  const std::string lost =
+      options.arkit.empty()
+          ? ""
+          : expression::lost_shapes(shapes, model, options.start_s, last_shown_s(scene));
   if (!lost.empty())
     in.notes.push_back(
         make_warning("recording.shapes_lost",
@@ -78,7 +96,7 @@ motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
        {std::pair{"recording.wild_weights", wild_weights_sentence(mended)},
         {"recording.weight_jumps", doubtful_weights_sentence(mended)}})
     if (!sentence.empty()) in.notes.push_back(make_warning(id, sentence, key));
-  warn_of_weights(options, shapes, model, in);
+  warn_of_weights(scene, shapes, model, in);
   in.gaze = expression::gaze_of(shapes);
   return m;
 }
@@ -242,7 +260,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
     in.pose_variance =
         metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);
     settle_rest(scene, steady.motion, in);
-    add(in.notes, stillness_warning(steady.motion));
+    add(in.notes, stillness_warning(steady.motion, in.gaze.has_value()));
   }
   return steady;
 }
@@ -263,6 +281,7 @@ void scale_motion(const scene::Scene& scene, Extent extent, motion::Motion& m, I
         scene.motion.time_scale * std::max(0.0, in.lasts_s - scene.motion.start_s + in.lead_s);
   }
   add(in.notes, beyond_recording_warning(scene, in.lasts_s));
+  add(in.notes, end_of_run_note(scene, in.lead_s));
 }
 
 void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m, Inputs& in) {

@@ -161,6 +161,7 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   cost.from_s = scene.motion.start_s;
   const double shown_s = (lasts_s > 0 ? std::min(end_s, lasts_s) : end_s) / scene.motion.time_scale;
   cost.to_s = cost.from_s + std::max(0.0, shown_s - inputs.lead_s);
+  cost.lead_s = inputs.lead_s;
   const double faces = 1 + cost.variants;
   if (output.vtu) {
     const double strain = output.vtu_strain ? finite ? kFiniteBytes : kStrainBytes : 0;
@@ -191,9 +192,12 @@ std::optional<RunCost> cost_before_tracking(const scene::Scene& scene) {
 }
 
 std::string sentence_of(const RunCost& cost) {
-  std::string text = fmt::format(
-      "a run: {:.0f} frames, from {:.4g} s to {:.4g} s of the recording; about {} on disk",
-      cost.frames, cost.from_s, cost.to_s, size_text(cost.disk_bytes));
+  std::string text = fmt::format("a run: {:.0f} frames, from {:.4g} s to {:.4g} s of the recording",
+                                 cost.frames, cost.from_s, cost.to_s);
+  if (cost.lead_s > 0)
+    text += fmt::format(", led in from rest over the {:.4g} s before: frame 0 is at {:.4g} s",
+                        cost.lead_s, cost.from_s - cost.lead_s);
+  text += fmt::format("; about {} on disk", size_text(cost.disk_bytes));
   if (cost.frames_bytes > 0.5 * cost.disk_bytes)
     text += fmt::format(" (frames/, for ParaView: {})", size_text(cost.frames_bytes));
   text += fmt::format(", {} of memory", size_text(cost.memory_bytes));

@@ -17,6 +17,7 @@ struct RunCost {
   double nodes = 0;                           ///< of the mesh
   double variants = 0;                        ///< besides base
   double from_s = 0, to_s = 0;                ///< what is run of the recording, from its start
+  double lead_s = 0;                          ///< before from_s, in which the face is led from rest
   double disk_bytes = 0, frames_bytes = 0;    ///< in all; of them frames/, for ParaView
   double memory_bytes = 0, motion_bytes = 0;  ///< in all; of them the motion of all faces
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:

@@ -514,8 +514,8 @@ struct TimeOptions {
   static void describe(Visitor& v) {
     v.option(HX_MEMBER(step_s), "The time step.", {.unit = kSeconds, .bounds = {1e-6, 0.1}});
     v.option(HX_MEMBER(end_s),
-             "When the simulation ends; after the recording its last sample is kept. 0: at the end "
-             "of the recording.",
+             "When the simulation ends, counted from its start and not from the recording's; after "
+             "the recording its last sample is kept. 0: at the end of the recording.",
              {.unit = kSeconds, .bounds = {0, 600}});
     v.option(HX_MEMBER(frame_rate_hz),
              "Frames written per second. They need not coincide with time steps.",

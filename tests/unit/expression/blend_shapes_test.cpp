@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/expression/blend_shapes.hpp"
 
+#include <gmock/gmock.h>
+
 #include <cmath>
 #include <filesystem>
 
@@ -8,6 +10,7 @@
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
+#include "hyperex/motion/resample.hpp"
 #include "unit/io/io_testing.hpp"
 
 namespace hyperex::expression {
@@ -135,6 +138,9 @@ TEST_F(BlendShapesFile, NamesTheShapesThatTheFaceLacks) {
                                        "time_s,jawOpen,tongueOut,cheekPuff,eyeLookUpLeft\n"
                                        "0,0.9,0.1,0.2,0\n82.5,0,0.65,0.3,0.9\n83,0,0.2,0,0\n"));
   EXPECT_EQ(lost_shapes(shapes, canonical_model()), "tongueOut up to 0.65 at 82.50 s");
+  EXPECT_EQ(lost_shapes(shapes, canonical_model(), 0, 82), "") << "another part is run";
+  EXPECT_EQ(lost_shapes(shapes, canonical_model(), 82.6), "");
+  EXPECT_NE(lost_shapes(shapes, canonical_model(), 82.5, 82.5), "");
 }
 
 /// 4 s at 10 Hz: a smile over the first second, a pucker from the third second on.
@@ -217,6 +223,66 @@ TEST(OpenFaceTable, NamesUnitsThatTheFaceHas) {
   std::vector<std::string> notes;
   motion_of(all, canonical_model(), notes);
   EXPECT_TRUE(notes.empty()) << notes.front();
+}
+
+TEST_F(BlendShapesFile, AMissingSideIsToldWhereOthersHaveBoth) {
+  const auto missing = [&](const std::string& table) {
+    return missing_sides(read_arkit(write("sides.csv", table)));
+  };
+  const MissingSides told =
+      missing("time_s,EyeBlinkLeft,EyeBlinkRight,MouthSmileRight\n0,0,0,0\n1,0,0,0.92\n");
+  EXPECT_THAT(told.text, testing::HasSubstr("MouthSmileLeft (MouthSmileRight reaches 0.92)"));
+  EXPECT_TRUE(told.doubtful);
+  const MissingSides one_sided = missing("time_s,mouthSmileRight,jawOpen\n0,0,0\n1,1,1\n");
+  EXPECT_THAT(one_sided.text, testing::HasSubstr("mouthSmileLeft"));
+  EXPECT_FALSE(one_sided.doubtful) << "it may be meant";
+  const MissingSides still =
+      missing("time_s,eyeBlinkLeft,eyeBlinkRight,mouthSmileRight\n0,0,0,0\n1,1,1,0.04\n");
+  EXPECT_EQ(still.text, "");
+  EXPECT_FALSE(still.doubtful);
+  EXPECT_EQ(missing("time_s,eyeBlinkLeft,eyeBlinkRight,jawLeft,mouthRight,eyeLookOutLeft\n"
+                    "0,0,0,0,0,0\n1,1,1,1,1,1\n")
+                .text,
+            "")
+      << "directions";
+}
+
+TEST_F(BlendShapesFile, ShapesThatAWholeCaptureLacksAreNamed) {
+  const auto notes = [&](std::size_t without) {
+    std::string head = "time_s", zero = "0", one = "1";
+    for (std::size_t i = 0; i < arkit_shapes().size() - without; ++i)
+      head += "," + arkit_shapes()[i], zero += ",0", one += ",0.5";
+    std::string all;
+    for (const std::string& note :
+         read_arkit(write("all.csv", head + "\n" + zero + "\n" + one + "\n")).notes)
+      all += note;
+    return all;
+  };
+  EXPECT_EQ(notes(0), "");
+  EXPECT_EQ(notes(1), "1 of ARKit's 52 blend shapes have no column and count as 0: tongueOut");
+  EXPECT_EQ(notes(13), "") << "a table of 39";
+}
+
+TEST_F(BlendShapesFile, SemicolonsSeparateAndADecimalCommaIsNamed) {
+  const BlendShapes shapes =
+      read_arkit(write("semi.csv", "Timecode;JawOpen\n13:14:04:31.166;0.1\n13:14:04:32.166;0.2\n"));
+  EXPECT_EQ(shapes.weights(1, 0), 0.2);
+  expect_refused(write("comma.csv", "Timecode;JawOpen\n13:14:04:31,166;0.1\n"),
+                 {":2: ", "Timecode", "a point, not a comma"}, read_arkit);
+}
+
+TEST_F(BlendShapesFile, WeightsAreHeldBetweenEqualKeys) {
+  const motion::Motion motion = moved_by(
+      read_arkit(write("keys.csv", "time_s,jawOpen\n0,0\n0.2,0\n0.3,1\n1.3,1\n1.5,0\n2,0\n")));
+  const motion::MotionCurve curve(motion);
+  EXPECT_LT((curve.at(0.8) - motion.positions[2]).cwiseAbs().maxCoeff(), 1e-12);
+  const double at_rest = motion.positions[0](motion.index_of("ibug68_8"), 1);
+  const double open = motion.positions[2](motion.index_of("ibug68_8"), 1);
+  EXPECT_LT(open, at_rest - 0.01);
+  for (double t = 0; t < 2; t += 0.01) {
+    const double y = curve.at(t)(motion.index_of("ibug68_8"), 1);
+    EXPECT_TRUE(y >= open - 1e-12 && y <= at_rest + 1e-12) << t;
+  }
 }
 
 TEST_F(BlendShapesFile, RefusesWhatItCannotRead) {

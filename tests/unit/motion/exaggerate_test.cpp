@@ -45,6 +45,7 @@ TEST(TimeScale, SlowsFromTheFirstSampleOn) {
   const Motion out = time_scaled(motion, 2);
   for (int k = 0; k < 4; ++k) EXPECT_NEAR(out.time_s[std::size_t(k)], 7 + 0.2 * k, 1e-12);
   EXPECT_EQ(out.positions[3], motion.positions[3]);
+  EXPECT_EQ(out.smooth_up_to_s, 2 * motion.smooth_up_to_s) << "slow motion takes the same course";
   expect_refused([&] { time_scaled(motion, 0); }, {"above 0"});
   expect_refused([&] { time_scaled(motion, nan); }, {"above 0"});
 }

@@ -26,7 +26,7 @@ double largest_error(int samples, Interpolation interpolation) {
 
 TEST(Resample, AllMeetTheSamplesAndHoldTheEnds) {
   const Motion motion = swinging(11);
-  for (const auto how : {Interpolation::linear, Interpolation::cubic, Interpolation::monotone}) {
+  for (const auto how : {Interpolation::linear, Interpolation::cubic}) {
     const MotionCurve curve(motion, how);
     for (std::size_t k = 0; k < motion.time_s.size(); ++k)
       EXPECT_LT((curve.at(motion.time_s[k]) - motion.positions[k]).norm(), 1e-12);
@@ -61,18 +61,70 @@ TEST(Resample, CubicHasNoJumpOfVelocityNorAcceleration) {
   EXPECT_NEAR(velocity(1 - 2 * h), 0, 0.02);
 }
 
-TEST(Resample, MonotoneNeverOvershoots) {
-  const Motion step =
-      testing::sampled(6, 1, {"a"}, [](double t, int, int) { return t < 2.5 ? 0 : 1; });
-  double cubic_low = 0, monotone_low = 0;
-  const MotionCurve cubic(step, Interpolation::cubic), monotone(step, Interpolation::monotone);
-  for (double t = 0; t <= 5; t += 0.01) {
-    cubic_low = std::min(cubic_low, cubic.at(t)(0, 0));
-    monotone_low = std::min(monotone_low, monotone.at(t)(0, 0));
-    EXPECT_LE(monotone.at(t)(0, 0), 1 + 1e-15);
+/// Keys as an animator sets them: 0, a hold at 1, and back.
+Motion keyed(double smooth_up_to_s) {
+  const std::vector<double> value = {0, 0, 1, 1, 0, 0};
+  Motion motion = testing::sampled(
+      6, 1, {"a"}, [&](double t, int, int) { return value[std::size_t(std::lround(t))]; });
+  motion.time_s = {0, 0.2, 0.3, 1.3, 1.5, 2};
+  motion.smooth_up_to_s = smooth_up_to_s;
+  return motion;
+}
+
+Motion motion_with(Motion motion, double smooth_up_to_s) {
+  motion.smooth_up_to_s = smooth_up_to_s;
+  return motion;
+}
+
+/// Least and greatest value from `from_s` to `to_s`.
+std::pair<double, double> range(const Motion& motion, double from_s, double to_s) {
+  const MotionCurve curve(motion);
+  std::pair<double, double> found(9, -9);
+  for (double t = from_s; t <= to_s; t += 0.001) {
+    const double y = curve.at(t)(0, 0);
+    found = {std::min(found.first, y), std::max(found.second, y)};
   }
-  EXPECT_EQ(monotone_low, 0);
-  EXPECT_LT(cubic_low, -0.05);
+  return found;
+}
+
+TEST(Resample, BetweenEqualSamplesFarApartThePlaceIsHeld) {
+  for (const double smooth_up_to_s : {0.0, Motion::kSmoothUpTo_s}) {
+    const auto [held_least, held_most] = range(keyed(smooth_up_to_s), 0.3, 1.3);
+    EXPECT_NEAR(held_least, 1, 1e-12) << smooth_up_to_s;
+    EXPECT_NEAR(held_most, 1, 1e-12) << smooth_up_to_s;
+    const auto [least, most] = range(keyed(smooth_up_to_s), 0, 2);
+    EXPECT_GE(least, -1e-15) << smooth_up_to_s;
+    EXPECT_LE(most, 1 + 1e-15) << smooth_up_to_s;
+  }
+  EXPECT_GT(range(keyed(9), 0, 2).second, 1.5) << "the C2 spline overshoots";
+}
+
+TEST(Resample, ASampleAtWhichACoordinateTurnsIsItsExtreme) {
+  const std::vector<double> value = {0, 0.2, 1, 0.6, 0};
+  const Motion motion = testing::sampled(
+      5, 0.5, {"a"}, [&](double t, int, int) { return value[std::size_t(std::lround(2 * t))]; });
+  EXPECT_GT(range(motion_with(motion, 9), 0, 2).second, 1.001);
+  EXPECT_LE(range(motion_with(motion, 0), 0, 2).second, 1 + 1e-12);
+}
+
+TEST(Resample, ABoundedSlopeKeepsTheDirectionOfARise) {
+  const MotionCurve curve([] {
+    Motion motion = testing::sampled(5, 0.5, {"a"}, [](double t, int, int) { return t * t * t; });
+    motion.smooth_up_to_s = 0;
+    return motion;
+  }());
+  for (double t = 0.01; t <= 2; t += 0.01)
+    EXPECT_GE(curve.at(t)(0, 0), curve.at(t - 0.01)(0, 0)) << t;
+  EXPECT_NEAR(curve.at(1.25)(0, 0), 1.70, 0.05) << "not the stairs of slopes that are all 0";
+}
+
+/// Of markers only the samples beside a long step are bounded.
+TEST(Resample, DenseSamplesOfMarkersKeepTheSpline) {
+  Motion motion =
+      testing::sampled(6, 0.1, {"a"}, [](double t, int, int) { return t < 0.25 ? 0 : 1; });
+  EXPECT_LT(range(motion, 0, 0.5).first, -0.05);
+  motion.smooth_up_to_s = 0;
+  EXPECT_EQ(range(motion, 0, 0.5).first, 0);
 }
 
 TEST(Resample, KeepsNamesAndInterpolatesHeadPose) {

@@ -31,8 +31,9 @@ session::Face embedded() {
 class RigOfAFace : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    rig_ = std::make_unique<FaceRig>(
-        make_rig(embedded(), {{"mesh.element_size_mm", 8}, {"mesh.layers", 1}}));
+    rig_ = std::make_unique<FaceRig>(make_rig(embedded(),
+                                              {{"mesh.element_size_mm", 8}, {"mesh.layers", 1}},
+                                              [](const Note& note) { notes_.push_back(note); }));
   }
   static void TearDownTestSuite() { rig_.reset(); }
   static const report::RigShape& shape(const std::string& name) {
@@ -52,7 +53,18 @@ class RigOfAFace : public testing::Test {
   }
   static const Points& skin() { return rig_->performance.skin_rest.points; }
   static inline std::unique_ptr<FaceRig> rig_;
+  static inline std::vector<Note> notes_;
 };
+
+TEST_F(RigOfAFace, NotesAreOfTheScanAlone) {
+  EXPECT_TRUE(std::ranges::any_of(notes_, [](const Note& n) { return n.id == "teeth.average"; }));
+  for (const Note& note : notes_) {
+    for (const char* start : {"recording.", "drive."})
+      EXPECT_FALSE(note.id.starts_with(start)) << note.text;
+    EXPECT_EQ(note.text.find("drive.by"), std::string::npos) << note.text;
+    EXPECT_EQ(note.text.find("tissue.strain"), std::string::npos) << note.text;
+  }
+}
 
 TEST_F(RigOfAFace, HasAllNamesInOrderAndNothingAtTheTongue) {
   ASSERT_EQ(rig_->shapes.size(), 52u);

@@ -22,6 +22,9 @@ TEST(RecordingKey, IsToldByTheEndingAndTheColumns) {
     return recording_key(folder / name);
   };
   EXPECT_EQ(key("a.csv", "time_s,mouthSmileLeft\n"), "motion.arkit");
+  EXPECT_EQ(key("semicolons.csv", "Timecode;BlendShapeCount;EyeBlinkLeft\n"), "motion.arkit");
+  EXPECT_EQ(key("tabs.csv", "time_s\t\"jawOpen\"\n"), "motion.arkit");
+  EXPECT_EQ(key("comment.csv", "# A smile.\n\ntime_s,mouthSmileRight\n"), "motion.arkit");
   EXPECT_EQ(key("b.csv", "frame, AU12_r\n"), "motion.openface");
   EXPECT_EQ(key("c.csv", "time_s,name,x_mm\n"), "motion.file");
   EXPECT_EQ(key("d.TRC", ""), "motion.file");

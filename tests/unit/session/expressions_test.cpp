@@ -148,6 +148,20 @@ TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
   EXPECT_EQ(face.backing()->eyeballs.size(), 2u);
 }
 
+TEST(Expressions, AGazeAloneTurnsTheEyesOfAFaceAtRest) {
+  const SceneFolder folder;
+  folder.write("gaze.csv",
+               "time_s,eyeLookDownLeft,eyeLookDownRight\n0,0,0\n0.1,0.5,0.5\n0.2,1,1\n");
+  const Inputs in = read_inputs(read_scene(
+      folder.write("gaze.toml", "scan.file = \"embedded\"\nmotion.arkit = \"gaze.csv\"\n")));
+  EXPECT_NEAR(expression::degrees_of(in.gaze.value().at(0.2))[1], -expression::kLookDown_deg, 1e-6);
+  for (const Points& at : in.motion.motion.positions)
+    EXPECT_LT((at - in.motion.motion.positions[0]).cwiseAbs().maxCoeff(), 1e-12);
+  EXPECT_THAT(in.notes, testing::Contains(testing::AllOf(
+                            test::is_warning("recording.nothing_moves"),
+                            test::says("nothing moves in the recording but the eyes"))));
+}
+
 TEST(Expressions, WithoutAGazeTurnNoEyes) {
   EXPECT_FALSE(with_wrong_jaw({}).gaze);
 }

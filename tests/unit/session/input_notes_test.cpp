@@ -10,6 +10,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/plausible.hpp"
 #include "support/note_matchers.hpp"
 #include "support/refusal.hpp"
 #include "unit/scene/scene_files.hpp"
@@ -23,6 +24,7 @@ using test::says;
 using testing::AllOf;
 using testing::Contains;
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::Not;
 
@@ -89,6 +91,24 @@ TEST_F(InputNotes, KnowARunThatOutlastsItsRecordingOfHalfASecond) {
                              says("time.end_s = 1.6 s is 1.1 s after the end of the recording"))));
   EXPECT_THAT(notes({"time.end_s=1.6", "motion.time_scale=2"}),
               Not(Contains(has_id("time.beyond_recording"))));
+}
+
+TEST_F(InputNotes, TellAnEndThatLooksLikeTheRecordingsSeconds) {
+  EXPECT_THAT(notes({"time.start_s=0.3", "time.end_s=0.2"}),
+              Not(Contains(has_id("time.end_of_run"))));
+  EXPECT_THAT(notes({"time.end_s=0.4"}), Not(Contains(has_id("time.end_of_run"))));
+  EXPECT_THAT(
+      notes({"time.start_s=0.3", "time.end_s=0.4"}),
+      Contains(AllOf(is_note("time.end_of_run"), says("counted from the start of the run"))));
+  scene::Scene scene;
+  scene.motion.start_s = 14;
+  scene.time.end_s = 24;
+  EXPECT_THAT(end_of_run_note(scene, 0.5)->text,
+              AllOf(HasSubstr("stands for 37.5 s of the recording"),
+                    HasSubstr("to end at 24 s of the recording, write 10.5")));
+  scene.motion.time_scale = 2;
+  EXPECT_THAT(end_of_run_note(scene, 0)->text,
+              AllOf(HasSubstr("stands for 26 s"), HasSubstr("write 20")));
 }
 
 TEST_F(InputNotes, NameThePairThatIsExchanged) {

@@ -206,6 +206,16 @@ TEST_F(LoadOfMuscles, BetweenSamplesIsTheSpline) {
     EXPECT_LT((drive.force_at(k) - smooth(k * kDt) * whole).norm(), 1e-6 * whole.norm()) << k;
 }
 
+TEST_F(LoadOfMuscles, OfWeightsStaysBetweenItsSamples) {
+  load_.smooth_up_to_s = 0;
+  for (int k = 0; k < kSamples; ++k) load_.course.col(k).setConstant(k >= 3 && k < 6 ? 1 : 0);
+  const Eigen::VectorXd whole = load_.force.rowwise().sum();
+  const fem::Drive drive = this->drive();
+  for (int k = 3 * kStepsBetween; k <= 5 * kStepsBetween; ++k)
+    EXPECT_LT((drive.force_at(k) - whole).norm(), 1e-6 * whole.norm()) << k;
+  EXPECT_EQ(added_by_gains(load_, Eigen::VectorXd::Ones(6)).smooth_up_to_s, 0);
+}
+
 /// The stiffness of a chain with some cross-links; symmetric positive definite.
 fem::SparseMatrix stiffness(int n) {
   Eigen::MatrixXd k = 0.3 * Eigen::MatrixXd::Identity(n, n);

@@ -21,13 +21,15 @@ int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
   return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
 }
 
-/// Courses (rows) at times.
-Eigen::MatrixXd at_times(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
+/// The course of the load, perhaps changed, at times.
+Eigen::MatrixXd at_times(const HeldLoad& load, const Eigen::MatrixXd& course,
                          const std::vector<double>& times_s) {
+  const std::vector<double>& time_s = load.time_s;
   const auto count = static_cast<Eigen::Index>(times_s.size());
   Eigen::MatrixXd out(course.rows(), count);
   if (time_s.size() < 2) return course.col(0).replicate(1, count);
-  const Eigen::MatrixXd slope = motion::spline_slopes(time_s, course.transpose()).transpose();
+  const Eigen::MatrixXd slope =
+      motion::bounded_slopes(time_s, course.transpose(), load.smooth_up_to_s).transpose();
   const auto last = static_cast<Eigen::Index>(time_s.size()) - 1;
   for (Eigen::Index k = 0; k < count; ++k) {
     const double t = times_s[std::size_t(k)];
@@ -43,11 +45,11 @@ Eigen::MatrixXd at_times(const std::vector<double>& time_s, const Eigen::MatrixX
 }
 
 /// At `count` times, `dt_s` apart, from 0.
-Eigen::MatrixXd at_steps(const std::vector<double>& time_s, const Eigen::MatrixXd& course,
-                         double dt_s, Eigen::Index count) {
+Eigen::MatrixXd at_steps(const HeldLoad& load, const Eigen::MatrixXd& course, double dt_s,
+                         Eigen::Index count) {
   std::vector<double> times_s;
   for (Eigen::Index k = 0; k < count; ++k) times_s.push_back(static_cast<double>(k) * dt_s);
-  return at_times(time_s, course, times_s);
+  return at_times(load, course, times_s);
 }
 
 }  // namespace
@@ -127,7 +129,7 @@ Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::s
 
 Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
                           const std::vector<double>& times_s) {
-  return at_times(load.time_s, load.course.middleRows(first_row, rows), times_s);
+  return at_times(load, load.course.middleRows(first_row, rows), times_s);
 }
 
 Eigen::Index jaw_row(const HeldLoad& load) {
@@ -154,7 +156,7 @@ Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& option
 }  // namespace
 
 Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s) {
-  const Eigen::VectorXd now = at_times(load.time_s, changed_course(load, options), {time_s});
+  const Eigen::VectorXd now = at_times(load, changed_course(load, options), {time_s});
   Eigen::VectorXd out = Eigen::VectorXd::Zero(load.force.rows());
   for (Eigen::Index k = 0; k < now.size(); ++k)  // most muscles are at rest
     if (now[k] != 0) out += now[k] * load.force.col(k);
@@ -167,8 +169,8 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
   // Scales each row to the size of the force that it represents.
   const Eigen::VectorXd size = load.force.colwise().norm().transpose().cwiseMax(1e-12);
   course = size.asDiagonal() * course;
-  return compressed_drive(at_steps(load.time_s, course, dt_s, steps + 1 + kBeyond), dt_s, steps,
-                          tolerance, prescribed, load.force.rows(),
+  return compressed_drive(at_steps(load, course, dt_s, steps + 1 + kBeyond), dt_s, steps, tolerance,
+                          prescribed, load.force.rows(),
                           [&](const Eigen::VectorXd& direction, Eigen::Ref<Eigen::VectorXd> values,
                               Eigen::Ref<Eigen::VectorXd> force) {
                             values.setZero();
@@ -182,6 +184,7 @@ HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change) {
     if (change[m % change.size()] != 0) changed.push_back(m);
   HeldLoad out;
   out.time_s = load.time_s;
+  out.smooth_up_to_s = load.smooth_up_to_s;
   out.force = load.force(Eigen::all, changed);
   out.course = load.course(changed, Eigen::all);
   for (std::size_t i = 0; i < changed.size(); ++i)

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hyperex/fem/time/drive.hpp"
+#include "hyperex/motion/motion.hpp"
 #include "hyperex/simulate/load/nodal_course.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "hyperex/simulate/performance.hpp"
@@ -15,8 +16,10 @@ namespace hyperex::simulate {
 /// can then be held to see how other tissue or weaker muscles respond to them.
 struct HeldLoad {
   std::vector<double> time_s;  ///< of the samples, from the start of the motion, rising
-  Eigen::MatrixXd force;       ///< 3 |nodes| x k, N
-  Eigen::MatrixXd course;      ///< k x samples: the force at sample i is force * course.col(i)
+  /// As Motion::smooth_up_to_s, for the rows of `course`.
+  double smooth_up_to_s = motion::Motion::kSmoothUpTo_s;
+  Eigen::MatrixXd force;   ///< 3 |nodes| x k, N
+  Eigen::MatrixXd course;  ///< k x samples: the force at sample i is force * course.col(i)
   /// The first columns of `force` hold one narrow band per muscle, then (if `wide_bands`) one wide
   /// band per muscle.
   bool wide_bands = false;
@@ -47,8 +50,8 @@ std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& 
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,
                            const muscles::MuscleTable& table);
 
-/// Rows of the course at any times, by the C2 cubic spline through the samples. Before the first
-/// and after the last sample they are constant.
+/// Rows of the course at any times, by cubics through the samples (motion::bounded_slopes). Before
+/// the first and after the last sample they are constant.
 Eigen::MatrixXd course_at(const HeldLoad& load, Eigen::Index first_row, Eigen::Index rows,
                           const std::vector<double>& times_s);
 

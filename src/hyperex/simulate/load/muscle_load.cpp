@@ -291,6 +291,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   MuscleFit fit = fit_of(model, jaw, driven, options.muscles);
 
   HeldLoad load;
+  load.smooth_up_to_s = motion.motion.smooth_up_to_s;
   const auto count = static_cast<Eigen::Index>(model.lines().size());
   const auto samples = static_cast<Eigen::Index>(motion.motion.time_s.size());
   load.wide_bands = model.wide_force().cols() > 0;
