@@ -29,11 +29,8 @@ void bind_figures(py::module_& m) {
   py::class_<Change>(m, "VisitChange", "The difference of a visit from the first.")
       .def_readonly("value", &Change::value)
       .def_property_readonly(
-          "interval",
-          [](const Change& self) {
-            return Pair{self.all.low, self.all.high};
-          },
-          "95 %, with repetition.")
+          "interval", [](const Change& self) { return pair_of(self.all); },
+          "95 %, with repetition; None: not known, as the error of measurement is not.")
       .def_property_readonly(
           "measured", [](const Change& self) { return pair_of(self.measured); },
           "95 %, by measurement alone; None: not known.")

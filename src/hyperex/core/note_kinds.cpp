@@ -70,7 +70,7 @@ constexpr NoteKind kKinds[] = {
     "left out."),
   warning("recording.side_missing", "motion.arkit",
     "A table of weights has no column for a shape of one side whose counterpart exceeds 0.05; it "
-    "counts as 0. Told only where another shape has both sides."),
+    "counts as 0. This is a warning only where another shape has both sides."),
   warning("recording.coarse", "motion.file",
     "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
   warning("recording.shapes_lost", "motion.arkit",
@@ -175,7 +175,8 @@ constexpr NoteKind kKinds[] = {
   note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
-    "The recording does not start at rest: the run begins at rest and blends into it."),
+    "The face is not at rest where the run begins in the recording: the run leads face and eyes "
+    "from rest into it."),
   note("time.end_of_run", "time.end_s",
     "time.end_s is after time.start_s, as if it were counted from the start of the recording."),
   note("recording.checked_by_average_face", "scan.landmarks",

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
@@ -24,7 +25,7 @@ constexpr double kPeopleDiffer = 1.35;
 /// Points that are closer together say nothing of size, m.
 constexpr double kLeastSpread_m = 0.01;
 
-/// The first sample with the most measured points, with those alone.
+/// The first sample with the most measured points, with those alone, by their full names.
 motion::Motion fullest_sample(const motion::Motion& m) {
   const auto measured = [](const Points& sample) {
     Eigen::Index count = 0;
@@ -38,11 +39,14 @@ motion::Motion fullest_sample(const motion::Motion& m) {
   out.unit_note = m.unit_note;
   out.time_s = {m.time_s[k]};
   out.positions.emplace_back(measured(*fullest), 3);
-  for (std::size_t p = 0; p < m.names.size(); ++p)
-    if (const auto row = fullest->row(Eigen::Index(p)); row.allFinite()) {
-      out.positions[0].row(Eigen::Index(out.names.size())) = row;
-      out.names.push_back(m.names[p]);
-    }
+  for (std::size_t p = 0; p < m.names.size(); ++p) {
+    const auto row = fullest->row(Eigen::Index(p));
+    const std::string name = face::full_name(m.names[p]);
+    if (!row.allFinite() || std::ranges::count(out.names, name) > 0) continue;
+    out.positions[0].row(Eigen::Index(out.names.size())) = row;
+    out.names.push_back(name);
+  }
+  out.positions[0].conservativeResize(Eigen::Index(out.names.size()), 3);
   return out;
 }
 

@@ -181,7 +181,7 @@ class FaceSession {
   /// do not take part (drive.by, muscles.shape_prior).
   const metrics::SkinUncertainty* skin_uncertainty() const;
   /// What lies behind the holes of base's skin, with teeth(): report::face_backing(). Null where
-  /// base was not run, or the recording has no gaze: only the notes on a gaze need it here.
+  /// base was not run yet, or the recording has no gaze: only the notes on a gaze need it here.
   const report::FaceBacking* backing() const;
   const std::vector<VariantRun>& variants() const;
   FaceResult result(std::size_t face) const;

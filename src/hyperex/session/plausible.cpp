@@ -201,7 +201,7 @@ std::optional<Note> coarse_warning(const motion::Motion& m) {
   return make_warning(
       "recording.coarse",
       fmt::format("the recording has a sample every {:.2g} s (median): quicker motions "
-                  "between two samples are lost, as no point goes beyond its places in these; "
+                  "are lost: between two samples a point stays within the range of both places; "
                   "expected: at most {:g} s apart",
                   step_s, smooth_s));
 }
@@ -320,10 +320,9 @@ std::optional<Note> skin_warning(const SkinOff& off) {
   return make_warning(
       "skin.far_from_scan",
       fmt::format(
-          "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}: figures of "
-          "driven "
-          "points stay as recorded, those of other points within a centimetre of there, and of "
-          "variants there, are less accurate; a smaller mesh.element_size_mm or a cleaner scan "
+          "the simulated skin is up to {:.1f} mm off the scan, {:.0f} mm from {}. Figures of "
+          "driven points stay as recorded; those of other points within a centimetre of there, and "
+          "of variants there, are less accurate. A smaller mesh.element_size_mm or a cleaner scan "
           "helps",
           off.distance_mm, off.beside_mm, face::name_in_words(off.landmark)));
 }

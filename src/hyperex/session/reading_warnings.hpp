@@ -12,10 +12,10 @@ namespace hyperex::session {
 /// * `recording.wild_samples`: those that were left out, because no face moves like that,
 /// * `recording.zeros`: those of (0, 0, 0), which were taken as missing,
 /// * `recording.lone_samples`: those of a slow recording that jump away and back alone,
-/// * `recording.jumps`: those to which a point moves as no face does, and which were kept.
-/// * `recording.held_points`: those of points that are held while others move, which were kept.
-/// * `recording.end_samples`: those away at an end of the recording, which may be real and were
-/// kept. Each names the first three, and says how many more there are.
+/// * `recording.jumps`: those to which a point moves as no face does, and which were kept,
+/// * `recording.held_points`: those of points that are held while others move, which were kept,
+/// * `recording.end_samples`: those away at an end of the recording, which may be real; kept.
+/// Each names the first three, and says how many more there are.
 std::vector<Note> reading_warnings(const motion::MendedMotion& mended);
 
 /// `recording.far_points`: points that go farther from their first place than this part of a face

@@ -77,11 +77,11 @@ std::vector<Note> run_warnings(const simulate::SimulationReport& report,
   std::vector<Note> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
     warn("lips.pass_through",
-         fmt::format("the lips pass through each other by up to {0:.1f} mm: by as much at most, "
-                     "figures of the lips between driven points are off, also their opening; those "
-                     "of driven points, as the corners of the mouth, are not; contact.lips = true "
-                     "keeps the lips apart",
-                     report.lip_overlap_mm),
+         fmt::format(
+             "the lips pass through each other by up to {0:.1f} mm. Figures of the lips "
+             "between driven points, and the opening of the mouth, are off by at most that "
+             "much; those of driven points are not. contact.lips = true keeps the lips apart",
+             report.lip_overlap_mm),
          notes);
   if (report.inverted_tets > 0 && !few_are_inverted(report.inverted_tets, p.tets.rows()))
     warn("tissue.inverted",

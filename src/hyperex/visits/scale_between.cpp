@@ -6,6 +6,8 @@
 #include <limits>
 #include <vector>
 
+#include "hyperex/face/same_place.hpp"
+
 namespace hyperex::visits {
 namespace {
 
@@ -24,11 +26,16 @@ ScaleBetween scale_between(const std::map<std::string, Vec3>& first,
   constexpr std::size_t least_points = 4;
   constexpr double least_spread_m = 1e-3;
   std::vector<Vec3> there, here;
-  for (const auto& [name, place] : first)
-    if (const auto at = now.find(name); at != now.end()) {
-      there.push_back(place);
-      here.push_back(at->second);
-    }
+  for (const auto& [name, at_first] : first) {
+    const auto at = now.find(name);
+    if (at == now.end()) continue;
+    // A place that has two names counts once.
+    if (const std::string place = face::place_name(name);
+        place != name && first.contains(place) && now.contains(place))
+      continue;
+    there.push_back(at_first);
+    here.push_back(at->second);
+  }
   ScaleBetween out{std::numeric_limits<double>::quiet_NaN(), there.size(), kScalesDiffer};
   if (there.size() < least_points) return out;
   const double spread_m = rms_from_mean(there);

@@ -36,11 +36,11 @@ TEST(NameOfWords, OfTheProgramsOwnWordsIsThePoint) {
 
 TEST(MovesWithMouth, TheLipsAndTheChinByAnyOfTheirNames) {
   for (const char* name :
-       {"ibug68_4", "ibug68_12", "ibug68_48", "ibug68_67", "cheilion_L", "labiale_superius",
-        "stomion", "pogonion", "lower lip left", "chin", "Mouth_corner_R"})
+       {"ibug68_4", "ibug68_12", "ibug68_48", "ibug68_67", "48", "p57", "8", "cheilion_L",
+        "labiale_superius", "stomion", "pogonion", "lower lip left", "chin", "Mouth_corner_R"})
     EXPECT_TRUE(moves_with_mouth(name)) << name;
-  for (const char* name : {"ibug68_3", "ibug68_13", "ibug68_30", "ibug68_47", "subnasale",
-                           "cheek_L", "head_1", "forehead top", "slipper", ""})
+  for (const char* name : {"ibug68_3", "ibug68_13", "ibug68_30", "ibug68_47", "36", "p30",
+                           "subnasale", "cheek_L", "head_1", "forehead top", "slipper", ""})
     EXPECT_FALSE(moves_with_mouth(name)) << name;
 }
 

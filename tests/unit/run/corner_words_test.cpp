@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace hyperex::run {
 namespace {
 using Json = nlohmann::ordered_json;
@@ -92,8 +94,10 @@ TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
               HasSubstr("\n    no muscle pulls on the right: what motion is left there comes from "
                         "the jaw (fixed to it, the corner would go 5.0 mm), the other side, and "
                         "forces that no muscle explains\n"));
-  changed["commissure_R_with_jaw_mm"] = nullptr;
-  EXPECT_THAT(variant_lines(summary), HasSubstr("comes from the jaw, the other side, and"));
+  for (const Json& unknown : {Json(), Json(std::nan(""))}) {
+    changed["commissure_R_with_jaw_mm"] = unknown;
+    EXPECT_THAT(variant_lines(summary), HasSubstr("comes from the jaw, the other side, and"));
+  }
 }
 
 TEST(CornerWords, AChangeIsNotDecidedWhereTheJitterIsNotKnown) {

@@ -44,7 +44,7 @@ TEST(SkinWarning, NamesThePlaceOnTheFace) {
   EXPECT_THAT(skin_warning(off),
               Optional(AllOf(is_warning("skin.far_from_scan"), is_about("mesh.element_size_mm"),
                              says("9.0 mm"), says("10 mm from alare_L (wing of the nose, left)"),
-                             says("figures of driven points stay as recorded"))));
+                             says("Figures of driven points stay as recorded"))));
   EXPECT_EQ(skin_warning(skin_off_scan(skin_off_by(0.004), landmarks)), std::nullopt);
 }
 

@@ -36,7 +36,7 @@ TEST(RunWarnings, LipsThatPassByMoreThanHalfAMillimetre) {
               ElementsAre(is_warning("lips.pass_through", "contact.lips")));
   EXPECT_THAT(
       run_warnings(report, {}),
-      ElementsAre(AllOf(says("0.5 mm"), says("by as much at most"), says("contact.lips = true"))));
+      ElementsAre(AllOf(says("0.5 mm"), says("off by at most that much"), says("contact.lips = true"))));
 }
 
 TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {

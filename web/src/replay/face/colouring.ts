@@ -68,7 +68,7 @@ function distances(a: Float32Array, b: Float32Array, factor: number, out: Float3
   }
 }
 
-/** Difference from base. Next to base, both faces show the difference between them: base's own is zero everywhere and
+/** Distance from the unchanged face. Next to base, both faces show the difference between them: base's own is zero everywhere and
  *  would carry no information. */
 function difference(replay: Replay): Colouring {
   const { faces } = replay;
