@@ -122,6 +122,18 @@ TEST_F(RigOfAFace, EyesAndJawTurn) {
   EXPECT_TRUE(rig_->closed_eyes.empty());
 }
 
+TEST_F(RigOfAFace, ItsLidsFollowTheIrisDownAndUp) {
+  const double opening_mm = 1e3 * (anatomy::embedded_face().landmarks.at("ibug68_43") -
+                                   anatomy::embedded_face().landmarks.at("ibug68_47"))
+                                      .norm();
+  const Vec3 upper = moved_mm("eyeLookDownLeft", "ibug68_43"),
+             lower = moved_mm("eyeLookDownLeft", "ibug68_47");
+  EXPECT_NEAR(upper.y(), moved_mm("eyeBlinkLeft", "ibug68_43").y(), 1) << "as in a blink";
+  EXPECT_LT(lower.y(), -1.5) << "the lower lid makes room for the iris";
+  EXPECT_GT(opening_mm + upper.y() - lower.y(), 2);
+  EXPECT_GT(moved_mm("eyeLookUpLeft", "ibug68_43").y(), 2);
+}
+
 TEST_F(RigOfAFace, IsWrittenWithNamedTargets) {
   const auto file = std::filesystem::path(testing::TempDir()) / "face_rig_test.glb";
   const double bytes = report::write_rig_glb(file, rig_->performance, *rig_->scan,
