@@ -14,6 +14,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/tracking/scan/find_front.hpp"
+#include "hyperex/tracking/scan/lid_edges.hpp"
 
 namespace hyperex::tracking {
 namespace {
@@ -160,6 +161,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   for (int i = 0; i < face_point_count; ++i)
     found.face_points.row(i) = surface.query(points.row(i).transpose()).point.transpose();
   found.scan_from_canonical = fit_similarity(canonical.mesh.points, points);
+  lids_to_edges(found.landmarks, scan, found.scan_from_canonical.rotation);
   found.views = int(seen.size());
   for (const PictureRays& o : seen) found.score += o.score / double(seen.size());
   found.spread_m = off.empty() ? 0 : median(off);
