@@ -293,6 +293,7 @@ const std::vector<NotedScene>& noted_scenes() {
 const std::map<std::string, std::string>& warnings_without_scene() {
   static const std::map<std::string, std::string> all = {
       {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
+      {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };
   return all;

@@ -42,7 +42,10 @@ void read_scan_files(const scene::Scene& scene, Files& files) {
     read_scan(scene, scan.in);
     files.scan_read = true;
   });
-  if (files.scan_read) scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+  if (files.scan_read) {
+    note_turned_triangles(scene, scan.in);
+    scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+  }
   scan.problems.attempt([&] { files.given = given_landmarks(scene); });
   if (files.scan_read && !files.given.empty())
     files.completion.problems.attempt(
