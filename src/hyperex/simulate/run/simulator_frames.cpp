@@ -94,18 +94,14 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
 void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const PointCurve& points,
                                       const std::vector<double>& frame_time_s) {
   const DrivenPoints& driven = stages.points.value();
-  std::string names;
-  for (std::size_t i = 0; i < off_m.size(); ++i) {
-    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
-    if (off_m[i] > kDrivenWithin_m) names += (names.empty() ? "" : ", ") + driven.names[i];
-  }
-  if (names.empty()) return;
+  for (const double one_m : off_m)
+    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * one_m);
+  const std::string text = points_off_text(driven.names, off_m, kDrivenWithin_m);
+  if (text.empty()) return;
   const std::string reason =
       reason_of(farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m),
                 options, report.contact.frames > 0);
-  warn("drive.points_off", "drive.points",
-       fmt::format("driven points end up to {:.2f} mm from where they are driven: {}{}{}",
-                   report.driven_off_mm, names, reason.empty() ? "" : "; ", reason));
+  warn("drive.points_off", "drive.points", text + (reason.empty() ? "" : "; ") + reason);
 }
 
 void Simulator::Impl::warn(const char* id, const char* key, std::string text) {
