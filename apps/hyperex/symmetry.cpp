@@ -300,15 +300,17 @@ void run(const SymmetryOptions& options) {
   if (!options.map.empty() || !options.map_ply.empty())
     throw InputError(InputProblem{"symmetry", 0, options.map.empty() ? "--map-ply" : "--map", "",
                                   "a folder of surfaces; points alone have no map"});
+  const session::Readings readings =
+      options.rig.empty() ? session::Readings::measured : session::Readings::of_weights;
   auto [motion, warnings] = session::cleaned_recording(
-      motion::until(read(options, file, unit), options.end_s, "--end-s"));
+      motion::until(read(options, file, unit), options.end_s, "--end-s"), readings);
   report_guessed_unit(motion);
   const std::vector<Note> checked = session::check_alone(motion);
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
-  if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady));
+  if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady, readings));
   add(warnings, session::coarse_warning(motion));
   append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);

@@ -321,6 +321,7 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"forces.found_anew", "FaceSession.OtherScenesOfTheFaceGiveWhatAFreshSessionGives"},
       {"sides.doubtful", "CheckAlone.SidesThatAreExchangedLessSurelyAreAWarning"},
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
+      {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
   };
   return all;

@@ -23,6 +23,9 @@ constexpr NoteKind kKinds[] = {
     "More than a third of the landmarks are doubtful: they may belong to another scan."),
   warning("landmarks.misspelt", "scan.landmarks",
     "A landmark's name is not known and looks like one that is; at most five are named."),
+  warning("scan.turned_triangles", "scan.file",
+    "At more than 2 % of the edges between two of the scan's triangles both run the same way, so "
+    "that one of them is turned inside out."),
   warning("recording.mirror_unknown", "motion.mirrored",
     "The recording is a video, which has no flag for mirroring, and motion.mirrored is not given."),
   warning("recording.time_unit_doubtful", "motion.file",

@@ -217,8 +217,9 @@ BlendShapes read_openface(const std::filesystem::path& file) {
   return out;
 }
 
-motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
+motion::Motion motion_of(const BlendShapes& recorded, const FaceModel& model,
                          std::vector<std::string>& notes) {
+  const BlendShapes shapes = model.lids_once ? with_lids_once(recorded) : recorded;
   std::set<std::string> used;
   const auto mean_of = [&](const std::string& pattern) -> Eigen::VectorXd {
     Eigen::VectorXd sum = Eigen::VectorXd::Zero(shapes.weights.rows());

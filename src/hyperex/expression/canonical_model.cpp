@@ -149,6 +149,7 @@ const FaceModel& canonical_model() {
     const face::CanonicalFace& face = face::canonical_face();
     FaceModel made;
     made.name = "canonical";
+    made.lids_once = true;
     made.mesh = {face.mesh.points, face::opened_triangles(face)};
     made.landmarks = face.landmarks;
     for (const auto& row : table_rows(canonical_landmarks_table(), "name,vertices"))

@@ -43,6 +43,9 @@ struct FaceModel {
   /// Maps a landmark's name to the vertices whose mean it is. Contains the iBUG and anatomical
   /// landmarks that the model defines.
   std::map<std::string, std::vector<int>> landmarks;
+  /// Recorded gaze moves the lids only as far as eyeBlink and eyeWide do not move them already
+  /// (with_lids_once() in gaze.hpp). False for a rig, whose shapes add up by definition.
+  bool lids_once = false;
   int jaw_drop = -1;  ///< row of animation_units: the unit that opens the mouth
 
   Eigen::Index vertex_count() const { return mesh.points.rows(); }

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <tuple>
 
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/motion/rest.hpp"
@@ -73,6 +75,24 @@ std::optional<Gaze> gaze_of_shape(const std::string& shape) {
   if (shape.starts_with("eyeLookOut")) return Gaze{0, outward * kLookAside_deg * kDeg};
   if (shape.starts_with("eyeLookIn")) return Gaze{0, -outward * kLookAside_deg * kDeg};
   return std::nullopt;
+}
+
+BlendShapes with_lids_once(BlendShapes shapes) {
+  const auto column = [&](const std::string& name) {
+    return Index(std::ranges::find(shapes.names, name) - shapes.names.begin());
+  };
+  for (const std::string side : {"Left", "Right"})
+    for (const auto& [gaze, lids, share] : {std::tuple{"eyeLookDown", "eyeBlink", kBlinkOfLookDown},
+                                            {"eyeLookUp", "eyeWide", kWideOfLookUp}}) {
+      const Index follows = column(gaze + side), moved = column(lids + side);
+      if (follows == shapes.weights.cols() || moved == shapes.weights.cols()) continue;
+      for (Index k = 0; k < shapes.weights.rows(); ++k) {
+        double& weight = shapes.weights(k, follows);
+        const double rest = weight - share * shapes.weights(k, moved);
+        weight = rest < 0 ? 0 : rest;  // not std::max: what was not measured stays so
+      }
+    }
+  return shapes;
 }
 
 EyesGaze GazeTrack::at(double t_s) const {

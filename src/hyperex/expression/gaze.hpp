@@ -47,6 +47,17 @@ bool is_gaze(const std::string& shape);
 /// is towards the nose (Apple, ARFaceAnchor.BlendShapeLocation).
 std::optional<Gaze> gaze_of_shape(const std::string& shape);
 
+/// How far eyeBlink at weight 1 lowers the upper lid, as a share of what eyeLookDown does at 1, and
+/// how far eyeWide raises it, as a share of eyeLookUp (data/canonical_units.csv).
+inline constexpr double kBlinkOfLookDown = 1, kWideOfLookUp = 0.48;
+
+/// The weights with which lids follow the gaze once. ARKit's eyeBlink and eyeWide often contain the
+/// motion of the lids with the gaze: in a take of Live Link Face (4,030 rows) eyeBlink rises from 0
+/// to 0.33 while eyeLookDown rises to 0.5. Then eyeLookDown counts only as far as it lowers the
+/// upper lid by more than eyeBlink does, and eyeLookUp as far as it raises it by more than eyeWide.
+/// For motion_of() alone: the eyes turn by the weights as recorded (gaze_of()).
+BlendShapes with_lids_once(BlendShapes shapes);
+
 /// The eyes over time.
 struct GazeTrack {
   std::vector<double> time_s;  ///< at least one, strictly increasing

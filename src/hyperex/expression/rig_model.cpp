@@ -7,6 +7,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/sided_triangles.hpp"
 
 namespace hyperex::expression {
 namespace {
@@ -29,15 +30,18 @@ std::string arkit_name(std::string name) {
 }  // namespace
 
 FaceModel rig_model(const io::ShapedMesh& rig, const io::Landmarks& landmarks,
-                    const std::filesystem::path& file) {
+                    const std::filesystem::path& file, const RigLips& lips) {
   if (landmarks.empty()) throw InputError(file, "has no landmarks");
   FaceModel model;
   model.name = "rig's";
   const SurfaceTree skin(rig.mesh);
+  const SidedTriangles sided(rig.mesh, lips.of_vertex);
   std::vector<ClosestPoint> places;
   for (const auto& [name, at] : landmarks) {
     model.landmarks[name] = {static_cast<int>(places.size())};
-    places.push_back(skin.query(at));
+    const auto lip = lips.of_landmark.find(name);
+    places.push_back(
+        skin.query_among(sided.open_to(lip == lips.of_landmark.end() ? 0 : lip->second), at));
   }
   const auto count = static_cast<Eigen::Index>(places.size());
   model.mesh.points.resize(count, 3);

@@ -18,19 +18,6 @@ namespace {
 
 using Tri = std::array<int, 3>;
 
-/// For each vertex, the first vertex at exactly the same place.
-std::vector<int> first_at_same_place(const Points& points) {
-  std::vector<int> order(points.rows());
-  std::iota(order.begin(), order.end(), 0);
-  const auto row = [&](int i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
-  std::sort(order.begin(), order.end(),
-            [&](int a, int b) { return std::pair(row(a), a) < std::pair(row(b), b); });
-  std::vector<int> first(points.rows());
-  for (std::size_t i = 0; i < order.size(); ++i)
-    first[order[i]] = i > 0 && row(order[i]) == row(order[i - 1]) ? first[order[i - 1]] : order[i];
-  return first;
-}
-
 /// Drops triangles until every directed edge is used at most once. This also drops triangles whose
 /// orientation is opposite to that of their neighbours; a scan has few of these.
 std::size_t drop_non_manifold(std::vector<Tri>& tris, std::vector<int>& source) {
@@ -144,6 +131,18 @@ std::size_t drop_islands(std::vector<Tri>& tris, std::vector<int>& source, const
 }
 
 }  // namespace
+
+std::vector<int> first_at_same_place(const Points& points) {
+  std::vector<int> order(points.rows());
+  std::iota(order.begin(), order.end(), 0);
+  const auto row = [&](int i) { return std::array{points(i, 0), points(i, 1), points(i, 2)}; };
+  std::sort(order.begin(), order.end(),
+            [&](int a, int b) { return std::pair(row(a), a) < std::pair(row(b), b); });
+  std::vector<int> first(points.rows());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    first[order[i]] = i > 0 && row(order[i]) == row(order[i - 1]) ? first[order[i - 1]] : order[i];
+  return first;
+}
 
 CleanMesh clean_mesh(const TriMesh& mesh, const CleanOptions& options) {
   CleanMesh out;

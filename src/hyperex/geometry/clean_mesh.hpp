@@ -7,6 +7,10 @@
 
 namespace hyperex {
 
+/// For each vertex, the first vertex at exactly the same place: the vertex itself where it is
+/// alone. Files with sharp edges or several normals at a vertex repeat it once per triangle.
+std::vector<int> first_at_same_place(const Points& points);
+
 /// A copy of a scan's mesh with its defects repaired, and a report on the repairs.
 struct CleanMesh {
   TriMesh mesh;  ///< manifold, consistently oriented, one component

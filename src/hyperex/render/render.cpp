@@ -326,10 +326,12 @@ void draw_marker(const Marker& marker, const DepthPicture& depth, const Camera& 
                  const RenderOptions& options, Canvas& canvas) {
   const Vec3 local = camera.axes() * (marker.at - camera.target);
   if (!local.allFinite()) return;
-  if (depth.hides(local, options.overlay_bias_m)) return;
+  const bool hollow = depth.hides(local, options.overlay_bias_m);
+  if (hollow && depth.hides(local, options.hollow_within_m)) return;
   const Projected p = project(camera, options.width_px, options.height_px, marker.at);
   canvas.disc(p.x, p.y, marker.radius_px + 1, {1, 1, 1});
   canvas.disc(p.x, p.y, marker.radius_px, marker.colour);
+  if (hollow) canvas.disc(p.x, p.y, marker.radius_px / 2, {1, 1, 1});
 }
 
 }  // namespace

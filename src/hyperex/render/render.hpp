@@ -26,7 +26,8 @@ struct Surface {
   bool smooth = true;  ///< true: shaded by averaged vertex normals; false: by facet normals
 };
 
-/// A disc of fixed size at a point; drawn where no surface hides the point.
+/// A disc of fixed size at a point; drawn where no surface hides the point, and hollow where it
+/// lies a little behind one.
 struct Marker {
   Vec3 at = Vec3::Zero();
   Colour colour = palette::driven;
@@ -47,6 +48,8 @@ struct RenderOptions {
   Colour background = palette::background;
   /// A marker or line is drawn if it lies less than this behind a surface, along the view, m.
   double overlay_bias_m = 1e-3;
+  /// A marker that lies deeper, but less than this behind a surface, is drawn hollow, m.
+  double hollow_within_m = 5e-3;
   /// Paints the background where a surface is seen from behind (its triangles run clockwise).
   bool hide_backs = false;
 };

@@ -26,15 +26,15 @@ using report::RigShape;
 constexpr double kFrameRate_hz = 5;
 /// Weight at which open mouths with open and closed lips are compared.
 constexpr double kClosedAt = 0.7;
-/// Shares of eyeWide and eyeBlink in which the lids follow.
-constexpr double kLidsUp = 0.5, kLidsDown = 0.55;
 /// A jaw that turns by less is taken as not moving.
 constexpr double kJaw_rad = 0.005;
 /// Sections of a scene whose keys may change a rig.
 constexpr const char* kSections[] = {"tissue", "muscles", "contact", "support", "mesh", "teeth"};
 
+/// Lids follow a gaze up or down, and none aside.
 bool moves_skin(const std::string& shape) {
-  return !expression::is_gaze(shape) && shape != "tongueOut";
+  return !shape.starts_with("eyeLookIn") && !shape.starts_with("eyeLookOut") &&
+         shape != "tongueOut";
 }
 
 /// The poses that are simulated, by name: every shape that moves skin alone, and those of
@@ -61,15 +61,9 @@ class Shapes {
   RigShape named(const std::string& name) const {
     RigShape shape{.name = name};
     shape.displacement_m = PointsF::Zero(skin("open").rows(), 3);
+    (name.ends_with("Left") ? shape.left_eye : shape.right_eye) = expression::gaze_of_shape(name);
     if (name == "mouthClose") {
       shape.displacement_m = (skin("closed") - skin("open")) / float(kClosedAt);
-    } else if (expression::is_gaze(name)) {
-      const std::string side = name.ends_with("Left") ? "Left" : "Right";
-      (side == "Left" ? shape.left_eye : shape.right_eye) = expression::gaze_of_shape(name);
-      if (name.starts_with("eyeLookUp"))
-        shape.displacement_m = float(kLidsUp) * skin("eyeWide" + side);
-      if (name.starts_with("eyeLookDown"))
-        shape.displacement_m = float(kLidsDown) * skin("eyeBlink" + side);
     } else if (moves_skin(name)) {
       shape.displacement_m = skin(name);
       const Eigen::Isometry3d& jaw = performance_.jaw_now_from_rest.at(frame_.at(name));

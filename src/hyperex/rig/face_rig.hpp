@@ -34,8 +34,7 @@ struct FaceRig {
 ///   at
 ///                 jawOpen = 0.7, divided by 0.7; added to jawOpen of the same weight it closes the
 ///                 mouth
-///   eyeLook...    the eyes turn; the lids take 0.5 of eyeWide with a gaze up and 0.55 of eyeBlink
-///                 with one down
+///   eyeLook...    the eyes turn; with a gaze up or down the lids follow as the canonical face's do
 ///   tongueOut     nothing: the tongue stays in the mouth
 /// `changes`: keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
 /// (docs/scene.md). `note`: called with each note and warning on the scan and its shapes, not

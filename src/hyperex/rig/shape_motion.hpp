@@ -19,7 +19,7 @@ struct Pose {
 /// to the end of its hold. Each shape moves the landmarks as that of its name does in the shapes of
 /// real faces (expression/shape_model.hpp; browInnerUp and cheekPuff are those of both sides). Lids
 /// move as by the canonical face's own units (expression/face_model.hpp), which close and widen its
-/// eyes exactly. Gaze and tongue move nothing.
+/// eyes exactly and follow a gaze up or down. A gaze aside and the tongue move nothing.
 motion::Motion motion_through(std::vector<Pose>& poses);
 
 }  // namespace hyperex::rig

@@ -188,7 +188,9 @@ void write_contact_sheet(const Results& r, const std::filesystem::path& file) {
 
   render::ContactSheet sheet;
   sheet.title = r.scene.title.empty() ? r.inputs.scan.file.filename().string() : r.scene.title;
-  sheet.note = "displacement of the skin; red: driven points; R and L: the subject's own sides";
+  sheet.note =
+      "displacement of the skin; red: driven points, hollow where hidden; R and L: the subject's "
+      "own sides";
   if (p.lip_cut_rest.rows() > 0) sheet.note += "; orange: where the joined lips were cut";
   sheet.columns = static_cast<int>(stills.size()) + 1;
   sheet.bar = render::ColourBar{{0, top}, "displacement (mm)"};

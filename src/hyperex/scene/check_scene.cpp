@@ -8,8 +8,10 @@
 #include "hyperex/muscles/muscle_names.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/region_names.hpp"
 #include "hyperex/scene/scene_reader.hpp"
 #include "hyperex/scene/values.hpp"
+#include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::scene {
 
@@ -43,6 +45,17 @@ void SceneReader::check_gains() {
     if (std::find(names.begin(), names.end(), gain.muscle) != names.end()) continue;
     complain_part("muscles.gain", "." + gain.muscle, gain.gain,
                   expected_gain(gain.muscle, names, scene.muscles.table()));
+  }
+}
+
+void SceneReader::check_region_names() {
+  const auto& regions = scene.tissue.regions;
+  for (std::size_t i = 0; i < regions.size(); ++i) {
+    if (regions[i].name.empty() || tissue::is_region(regions[i].name)) continue;
+    const std::string below = fmt::format("[{}].name", i);
+    complain_part("tissue.region", below, regions[i].name,
+                  "the name of a region (hyperex presets lists them)" +
+                      did_you_mean_region("tissue.region" + below, regions[i].name));
   }
 }
 
@@ -94,6 +107,7 @@ void SceneReader::check_bones() {
 
 void SceneReader::check_together() {
   check_gains();
+  check_region_names();
   check_strain();
   check_drive();
   check_bones();

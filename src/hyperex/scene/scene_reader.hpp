@@ -63,6 +63,8 @@ class SceneReader {
   void check_gains();
   /// Checks for options that finite strain does not support.
   void check_strain();
+  /// The names of tissue.region, whose landmarks are checked once those of the scan are known.
+  void check_region_names();
   /// Checks for options that what drives the face does not support.
   void check_drive();
   /// Checks that each segment of bone is cut as its part can be.

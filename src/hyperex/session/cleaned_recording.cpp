@@ -34,9 +34,9 @@ CleanedRecording cleaned_recording(const motion::Motion& recorded, Readings read
   return out;
 }
 
-std::optional<Note> check_steady(const motion::Motion& steady) {
+std::optional<Note> check_steady(const motion::Motion& steady, Readings readings) {
   motion::check_reach(steady);
-  return far_points_warning(steady);
+  return far_points_warning(steady, readings);
 }
 
 }  // namespace hyperex::session

@@ -5,17 +5,9 @@
 
 #include "hyperex/core/note.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 
 namespace hyperex::session {
-
-/// Where the readings of a recording's points come from.
-enum class Readings {
-  /// Each point was measured by itself, so that a wild reading of it is replaced.
-  measured,
-  /// Weights of expressions move all points of a face model. Replacing single points would distort
-  /// the face, so that wild readings are only reported, as jumps.
-  of_weights
-};
 
 /// A recording that can be evaluated, and what was found in its single readings.
 struct CleanedRecording {
@@ -32,6 +24,7 @@ CleanedRecording cleaned_recording(const motion::Motion& recorded,
 /// The same check once the head's pose is taken out: the warning of points that go too far, if
 /// any (far_points_warning). `steady`: without head pose, in the size of a person (m). Throws
 /// InputError where a point is implausibly far from its first place (motion::check_reach).
-std::optional<Note> check_steady(const motion::Motion& steady);
+std::optional<Note> check_steady(const motion::Motion& steady,
+                                 Readings readings = Readings::measured);
 
 }  // namespace hyperex::session

@@ -5,6 +5,7 @@
 
 #include <optional>
 
+#include "hyperex/anatomy/eyeballs.hpp"
 #include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
@@ -12,6 +13,7 @@
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/idle_keys.hpp"
+#include "hyperex/session/lid_middles.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
 #include "hyperex/session/read_bones.hpp"
@@ -43,7 +45,10 @@ void read_scan_files(const scene::Scene& scene, Files& files) {
     read_scan(scene, scan.in);
     files.scan_read = true;
   });
-  if (files.scan_read) scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+  if (files.scan_read) {
+    note_turned_triangles(scene, scan.in);
+    scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+  }
   scan.problems.attempt([&] { files.given = given_landmarks(scene); });
   if (files.scan_read && !files.given.empty())
     files.completion.problems.attempt(
@@ -139,7 +144,15 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   check_sides(steady, at_rest);
   add(in.notes, sides_warning(steady, at_rest));
   in.motion = simulate::align(steady, in.landmarks, scene.alignment.method);
-  if (of_weights(scene)) simulate::match_lid_apertures(in.motion, steady);
+  if (of_weights(scene)) {
+    simulate::match_lid_apertures(in.motion, steady);
+    if (const auto corners = anatomy::face_corners(in.landmarks)) {
+      const Vec3 left = (corners->outer[1] - corners->outer[0]).normalized();
+      Eigen::Matrix3d scan_from_face;
+      scan_from_face << left, corners->forward.cross(left), corners->forward;
+      add_lid_middles(in.motion, in.scan.mesh, scan_from_face);
+    }
+  }
   in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(make_note(
       "recording.aligned",

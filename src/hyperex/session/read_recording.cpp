@@ -231,8 +231,9 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
       add(in.notes, doubt);
     }
   }
-  const CleanedRecording cleaned = cleaned_recording(
-      m, of_weights(scene) && !scene.given.motion ? Readings::of_weights : Readings::measured);
+  const Readings readings =
+      of_weights(scene) && !scene.given.motion ? Readings::of_weights : Readings::measured;
+  const CleanedRecording cleaned = cleaned_recording(m, readings);
   append(in.notes, cleaned.warnings);
   motion::GapOptions gaps;
   gaps.max_gap_s = scene.motion.max_gap_s;
@@ -253,7 +254,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   auto steady = still_head ? motion::with_still_head(filled.motion)
                            : motion::stabilise(filled.motion, options);
   steady.motion.skull_points = options.rigid_points;
-  add(in.notes, check_steady(steady.motion));
+  add(in.notes, check_steady(steady.motion, readings));
   note_head(scene, steady, in);
   if (!still_head) add(in.notes, rigid_points_warning(scene, filled.motion));
   if (whole) {

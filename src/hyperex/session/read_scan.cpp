@@ -8,6 +8,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/geometry/turned_triangles.hpp"
 #include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/kept.hpp"
 #include "hyperex/tissue/field/tissue_field.hpp"
@@ -29,6 +30,12 @@ void read_scan(const scene::Scene& scene, Inputs& in) {
     in.notes.push_back(make_note(
         "scan.unit_guessed",
         fmt::format("the scan's unit is {}; state it with scan.unit", io::unit_note(in.scan))));
+}
+
+void note_turned_triangles(const scene::Scene& scene, Inputs& in) {
+  if (scene.scan.source.embedded && !scene.given.scan) return;
+  if (const std::string doubt = turned_triangles_doubt(in.scan.mesh); !doubt.empty())
+    in.notes.push_back(make_warning("scan.turned_triangles", "the scan: " + doubt));
 }
 
 io::Landmarks given_landmarks(const scene::Scene& scene) {

@@ -12,6 +12,9 @@ namespace hyperex::session {
 /// Sets in.scan. Throws InputError.
 void read_scan(const scene::Scene& scene, Inputs& in);
 
+/// `scan.turned_triangles` where triangles of the user's scan are turned inside out.
+void note_turned_triangles(const scene::Scene& scene, Inputs& in);
+
 /// The landmarks that the scene names, or the embedded face's; none where it names none. Throws
 /// InputError.
 io::Landmarks given_landmarks(const scene::Scene& scene);

@@ -93,7 +93,7 @@ std::vector<Note> reading_warnings(const motion::MendedMotion& mended) {
   return notes;
 }
 
-std::optional<Note> far_points_warning(const motion::Motion& steady) {
+std::optional<Note> far_points_warning(const motion::Motion& steady, Readings readings) {
   std::vector<motion::WildSample> far;
   std::vector<std::string> bounds;
   for (std::size_t p = 0; p < steady.names.size(); ++p) {
@@ -115,9 +115,15 @@ std::optional<Note> far_points_warning(const motion::Motion& steady) {
   const motion::WildSample& worst = far.front();
   return make_warning(
       "recording.far_points",
-      fmt::format("a point goes farther from its first place than this part of a face can (for {}: "
-                  "{:g} mm); correct the readings or leave their cells empty: {}",
-                  worst.point, 1e3 * reach_m(worst.point), first_readings(steady, far)));
+      fmt::format(
+          "a point goes farther from its first place than this part of a face can (for {}: "
+          "{:g} mm); {}: {}",
+          worst.point, 1e3 * reach_m(worst.point),
+          readings == Readings::of_weights
+              ? "shapes of a rig or face model move it there, so correct the weights or the "
+                "rig's shapes and landmarks"
+              : "correct the readings or leave their cells empty",
+          first_readings(steady, far)));
 }
 
 }  // namespace hyperex::session

@@ -8,6 +8,15 @@
 
 namespace hyperex::session {
 
+/// Where the readings of a recording's points come from.
+enum class Readings {
+  /// Each point was measured by itself, so that a wild reading of it is replaced.
+  measured,
+  /// Weights of expressions move all points of a face model. Replacing single points would distort
+  /// the face, so that wild readings are only reported, as jumps.
+  of_weights
+};
+
 /// Of readings of a recording that no face makes, in this order:
 /// * `recording.wild_samples`: those that were left out, because no face moves like that,
 /// * `recording.zeros`: those of (0, 0, 0), which were taken as missing,
@@ -19,7 +28,9 @@ namespace hyperex::session {
 std::vector<Note> reading_warnings(const motion::MendedMotion& mended);
 
 /// `recording.far_points`: points that go farther from their first place than this part of a face
-/// can. `steady`: without head pose, in the size of a person (m).
-std::optional<Note> far_points_warning(const motion::Motion& steady);
+/// can. `steady`: without head pose, in the size of a person (m). Of weights, it names the rig or
+/// face model whose shapes carry the points so far, since no reading of a point can be corrected.
+std::optional<Note> far_points_warning(const motion::Motion& steady,
+                                       Readings readings = Readings::measured);
 
 }  // namespace hyperex::session

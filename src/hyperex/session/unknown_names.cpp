@@ -12,34 +12,13 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/scene/keys.hpp"
-#include "hyperex/tissue/field/regions.hpp"
 
 namespace hyperex::session {
 namespace {
 
-struct SidedName {
-  std::string part;
-  std::string side;  ///< "_L", "_R" or empty
-};
-
-/// "right_cheek", "cheek_right", "cheek_r" and "cheek_R" are cheek, "_R".
-SidedName sided(std::string name) {
-  for (const auto& [word, side] :
-       {std::pair<std::string, std::string>{"right", "_R"}, {"left", "_L"}}) {
-    if (lower_case(name).starts_with(word + "_")) return {name.substr(word.size() + 1), side};
-    if (lower_case(name).ends_with("_" + word))
-      return {name.substr(0, name.size() - word.size() - 1), side};
-    if (lower_case(name).ends_with(lower_case(side)))
-      return {name.substr(0, name.size() - 2), side};
-  }
-  return {name, ""};
-}
-
-/// `part` itself if it is known, else the nearest of `parts`: all are names without sides.
-std::string nearest_part(const std::string& part, const std::vector<std::string>& parts) {
-  const bool known = std::find(parts.begin(), parts.end(), part) != parts.end();
-  return known ? part : scene::nearest(part, parts);
-}
+using scene::nearest_part;
+using scene::sided;
+using scene::SidedName;
 
 /// The number at the end of a name; -1 where there is none.
 int number_at_end(const std::string& name) {
@@ -61,22 +40,6 @@ const std::vector<std::string>& landmark_parts() {
 }
 
 }  // namespace
-
-std::string nearest_region(std::string name) {
-  std::erase(name, '"');
-  if (tissue::is_region(name)) return "";
-  const SidedName given = sided(name);
-  std::vector<std::string> parts;
-  for (const auto& region : tissue::facial_regions()) parts.push_back(region.name);
-  const std::string near = nearest_part(given.part, parts);
-  return near.empty() ? "" : near + given.side;
-}
-
-std::string did_you_mean_region(const std::string& key, const std::string& name) {
-  const bool of_region = key.find("region[") != std::string::npos && key.ends_with("].name");
-  const std::string near = of_region ? nearest_region(name) : "";
-  return near.empty() ? "" : "; did you mean " + near + "?";
-}
 
 std::string nearest_landmark(const std::string& name) {
   const auto& known = face::canonical_face().landmarks;

@@ -4,19 +4,15 @@
 #include <vector>
 
 #include "hyperex/core/note.hpp"
+#include "hyperex/scene/region_names.hpp"
 
 namespace hyperex::session {
 
 /// The existing name that an unknown name was probably meant to be. A side is never guessed:
 /// "cheek_r" and "right_cheek" are cheek_R, "chek" is cheek. Empty where no name is similar.
 
-/// Among the regions of the face (tissue::facial_regions); empty for one of them. Quotes around the
-/// name are ignored.
-std::string nearest_region(std::string name);
-
-/// The end of a message on a field of the tissue, "; did you mean cheek_R?", where `key` names a
-/// region, "region[0].name"; empty where no region is similar.
-std::string did_you_mean_region(const std::string& key, const std::string& name);
+using scene::did_you_mean_region;
+using scene::nearest_region;
 
 /// Among the landmarks that the canonical face knows; "ibug_48" and "48" are ibug68_48.
 std::string nearest_landmark(const std::string& name);

@@ -172,5 +172,57 @@ TEST(GazeTrack, OfWeightsAgreesWithTheAnglesOfARealTake) {
   for (const double one : most) EXPECT_LT(one, 2.5);
 }
 
+/// The upper edge of the iris (0.51 rad from its middle) on an eyeball of 10.6 mm radius.
+double iris_top_mm(double up_deg) {
+  return 10.6 * std::sin(0.51 + up_deg * std::numbers::pi / 180);
+}
+
+/// Displacement of a lid's point (y, mm) under weights of one sample.
+double lid_moved_mm(const std::vector<std::string>& names, const std::vector<double>& weights,
+                    const char* point) {
+  BlendShapes shapes;
+  shapes.names = names;
+  shapes.time_s = {0, 1};
+  shapes.weights = Eigen::MatrixXd::Zero(2, Eigen::Index(names.size()));
+  for (std::size_t c = 0; c < names.size(); ++c) shapes.weights(1, Eigen::Index(c)) = weights[c];
+  std::vector<std::string> notes;
+  const motion::Motion motion = motion_of(shapes, canonical_model(), notes);
+  const int row = motion.index_of(point);
+  return 1e3 * (motion.positions[1](row, 1) - motion.positions[0](row, 1));
+}
+
+TEST(Lids, CoverOneToTwoMillimetresOfTheIrisUpAndDown) {
+  constexpr double rest_mm = 3.0;  // of the upper lid above the eyeball's middle
+  for (const double weight : {0.25, 0.5, 0.75, 1.0}) {
+    const double down_mm = rest_mm + lid_moved_mm({"eyeLookDownLeft"}, {weight}, "ibug68_43");
+    EXPECT_NEAR(iris_top_mm(-weight * kLookDown_deg) - down_mm, 1.5, 0.7) << weight;
+    const double up_mm = rest_mm + lid_moved_mm({"eyeLookUpLeft"}, {weight}, "ibug68_43");
+    EXPECT_NEAR(iris_top_mm(weight * kLookUp_deg) - up_mm, 1.8, 0.7) << weight;
+  }
+  EXPECT_LT(lid_moved_mm({"eyeLookDownLeft"}, {1}, "ibug68_47"), -2) << "the lower lid goes along";
+  EXPECT_NEAR(lid_moved_mm({"eyeLookDownLeft"}, {1}, "ibug68_37"), 0, 1e-9) << "the other eye";
+}
+
+TEST(Lids, MoveOnceWhereBlinkAndWideContainTheGaze) {
+  const auto lid_mm = [](const char* gaze, double w, const char* lids, double v) {
+    return lid_moved_mm({gaze, lids}, {w, v}, "ibug68_43");
+  };
+  const double down_mm = lid_mm("eyeLookDownLeft", 0.5, "eyeBlinkLeft", 0);
+  EXPECT_NEAR(lid_mm("eyeLookDownLeft", 0.5, "eyeBlinkLeft", 0.3), down_mm, 0.1);
+  EXPECT_NEAR(lid_mm("eyeLookDownLeft", 0.5, "eyeBlinkLeft", 1),
+              lid_mm("eyeLookDownLeft", 0, "eyeBlinkLeft", 1), 1e-9)
+      << "a blink closes the eye wherever it looks";
+  const double up_mm = lid_mm("eyeLookUpLeft", 0.5, "eyeWideLeft", 0);
+  EXPECT_NEAR(lid_mm("eyeLookUpLeft", 0.5, "eyeWideLeft", 0.5), up_mm, 0.1);
+}
+
+TEST(Lids, WithoutAMeasurementStayWithout) {
+  BlendShapes shapes;
+  shapes.names = {"eyeLookDownLeft", "eyeBlinkLeft"};
+  shapes.time_s = {0};
+  shapes.weights = Eigen::MatrixXd::Constant(1, 2, std::nan(""));
+  EXPECT_TRUE(std::isnan(with_lids_once(shapes).weights(0, 0)));
+}
+
 }  // namespace
 }  // namespace hyperex::expression

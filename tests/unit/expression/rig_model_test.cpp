@@ -61,5 +61,33 @@ TEST(RigModel, KnowsTheNamesThatRigsUse) {
   EXPECT_EQ(refused(square("jawOpen"), {}), "rig.glb: has no landmarks");
 }
 
+/// Two squares that touch along y = 0, as closed lips do; of the shape only the lower one moves.
+io::ShapedMesh touching_lips() {
+  io::ShapedMesh rig;
+  rig.mesh.points.resize(8, 3);
+  rig.mesh.points << 0, 0, 0, 0.1, 0, 0, 0.1, 0.1, 0, 0, 0.1, 0,  // upper
+      0, -0.1, 0, 0.1, -0.1, 0, 0.1, 0, 0, 0, 0, 0;
+  rig.mesh.triangles.resize(4, 3);
+  rig.mesh.triangles << 0, 1, 2, 0, 2, 3, 4, 5, 6, 4, 6, 7;
+  PointsF moved = PointsF::Zero(8, 3);
+  moved.bottomRows(4).col(1).setConstant(-0.03F);
+  rig.shapes.push_back({"jawOpen", moved});
+  return rig;
+}
+
+TEST(RigModel, PointsOfALipMoveWithThatLipWhereTheOtherIsNearer) {
+  const io::Landmarks landmarks = {{"ibug68_62", {0.05, -0.0004, 0}},  // on the lower lip's side
+                                   {"ibug68_66", {0.05, 0.0004, 0}},
+                                   {"cheek_L", {0.05, -0.0004, 0}}};
+  const RigLips lips = {{1, 1, 1, 1, -1, -1, -1, -1}, {{"ibug68_62", 1}, {"ibug68_66", -1}}};
+  const FaceModel model = rig_model(touching_lips(), landmarks, "rig.glb", lips);
+  const auto down_mm = [&](const char* name) {
+    return -1e3 * model.recorded_units.at(0).displacement_m(model.landmarks.at(name).at(0), 1);
+  };
+  EXPECT_NEAR(down_mm("ibug68_62"), 0, 1e-6);
+  EXPECT_NEAR(down_mm("ibug68_66"), 30, 1e-5);
+  EXPECT_NEAR(down_mm("cheek_L"), 30, 1e-5) << "of no lip: the nearest";
+}
+
 }  // namespace
 }  // namespace hyperex::expression

@@ -128,6 +128,9 @@ TEST(Render, MarkersAndLinesShowOnlyWhereNothingHidesThem) {
   };
   EXPECT_GT(reds(render({surface}, front, square, {{{0, 0, 0.1}, red, 5}})), 60);
   EXPECT_EQ(reds(render({surface}, front, square, {{{0, 0, -0.1}, red, 5}})), 0);
+  const Image behind = render({surface}, front, square, {{{0, 0, 0.097}, red, 5}});
+  EXPECT_GT(reds(behind), 30) << "3 mm behind the surface: drawn hollow";
+  EXPECT_GT(behind.pixel(100, 100)[1], 200);
   Points line(2, 3);
   line << -0.15, 0, 0, 0.15, 0, 0;  // through the ball: only its ends stand out
   const int outside = reds(render({surface}, front, square, {}, {{line, red, 2}}));

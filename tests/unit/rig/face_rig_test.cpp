@@ -15,6 +15,7 @@
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/rig_model.hpp"
 #include "hyperex/io/gltf_shapes.hpp"
+#include "hyperex/session/rig_face.hpp"
 #include "unit/report/gltf_vectors.hpp"
 
 namespace hyperex::rig {
@@ -133,6 +134,18 @@ TEST_F(RigOfAFace, EyesAndJawTurn) {
   EXPECT_TRUE(rig_->closed_eyes.empty());
 }
 
+TEST_F(RigOfAFace, ItsLidsFollowTheIrisDownAndUp) {
+  const double opening_mm = 1e3 * (anatomy::embedded_face().landmarks.at("ibug68_43") -
+                                   anatomy::embedded_face().landmarks.at("ibug68_47"))
+                                      .norm();
+  const Vec3 upper = moved_mm("eyeLookDownLeft", "ibug68_43"),
+             lower = moved_mm("eyeLookDownLeft", "ibug68_47");
+  EXPECT_NEAR(upper.y(), moved_mm("eyeBlinkLeft", "ibug68_43").y(), 1) << "as in a blink";
+  EXPECT_LT(lower.y(), -1.5) << "the lower lid makes room for the iris";
+  EXPECT_GT(opening_mm + upper.y() - lower.y(), 2);
+  EXPECT_GT(moved_mm("eyeLookUpLeft", "ibug68_43").y(), 2);
+}
+
 TEST_F(RigOfAFace, IsWrittenWithNamedTargets) {
   const auto file = std::filesystem::path(testing::TempDir()) / "face_rig_test.glb";
   const double bytes = report::write_rig_glb(file, rig_->performance, *rig_->scan,
@@ -222,6 +235,30 @@ TEST_F(RigOfAFace, IsReadBackAndWeightsMoveItsLandmarks) {
   for (const char* corner : {"ibug68_54", "ibug68_48"})
     EXPECT_LT((moved(corner) - moved_mm("mouthSmileLeft", corner)).norm(), 0.3) << corner;
   EXPECT_GT(moved("ibug68_54").norm(), 5);
+}
+
+/// Landmarks of a closed mouth lie on either lip by tenths of a millimetre.
+TEST_F(RigOfAFace, ItsLipsMoveApartThoughTheirPointsLieOnTheOtherLip) {
+  simulate::Performance swapped = rig_->performance;
+  motion::Motion& tracks = swapped.landmarks;
+  const auto row = [&](const char* name) {
+    return tracks.positions.front().row(tracks.index_of(name));
+  };
+  const Points upper = row("ibug68_62");
+  row("ibug68_62") = row("ibug68_66").eval();
+  row("ibug68_66") = upper;
+  const auto file = std::filesystem::path(testing::TempDir()) / "face_rig_lips.glb";
+  report::write_rig_glb(file, swapped, *rig_->scan, nullptr, rig_->jaw_axis_m, rig_->shapes);
+  const expression::FaceModel model = session::rig_face(file, KeptResults());
+  std::filesystem::remove(file);
+  const auto moved_up_mm = [&](const char* name) -> double {
+    for (const expression::DeformationUnit& unit : model.recorded_units)
+      if (unit.arkit == "jawOpen")
+        return 1e3 * unit.displacement_m(model.landmarks.at(name).at(0), 1);
+    throw std::out_of_range("jawOpen");
+  };
+  EXPECT_GT(moved_up_mm("ibug68_62"), -8) << "the upper lip stays";
+  EXPECT_LT(moved_up_mm("ibug68_66"), -15) << "the lower one goes with the jaw";
 }
 
 TEST_F(RigOfAFace, ShapesOfAnotherSkinAreRefused) {

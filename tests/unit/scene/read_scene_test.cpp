@@ -51,6 +51,20 @@ TEST(ReadScene, PathsAreRelativeToTheSceneFileThoseOfSetToTheCurrentFolder) {
   EXPECT_EQ(wrong.size(), 1u);
 }
 
+TEST(ReadScene, WrongNamesInTwoVariantsAreThrownAtOnce) {
+  const SceneFolder folder;
+  const auto problems = problems_of(
+      folder.write("scene.toml", std::string(smallest) +
+                                     "[[variant]]\nname = \"a\"\nmuscles.gain = { zyg_R = 0.3 }\n"
+                                     "[[variant]]\nname = \"b\"\n"
+                                     "tissue.region = [{ name = \"side_R\", young_factor = 5 }]\n"),
+      {});
+  ASSERT_EQ(problems.size(), 2u) << sentences(problems);
+  EXPECT_EQ(problems[0].key, "variant[0].muscles.gain.zyg_R");
+  EXPECT_EQ(problems[1].key, "variant[1].tissue.region[0].name");
+  EXPECT_THAT(problems[1].expected, HasSubstr("did you mean face_R?"));
+}
+
 TEST(ReadScene, AllProblemsAreThrownAtOnceEachOnItsLine) {
   const SceneFolder folder;
   const auto file = folder.write("scene.toml",

@@ -11,6 +11,7 @@
 #include "hyperex/report/face_backing.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 #include "support/note_matchers.hpp"
 #include "unit/scene/scene_files.hpp"
 
@@ -90,6 +91,21 @@ TEST(Expressions, PointsThatWeightsMoveAreNotMendedOneByOne) {
   };
   for (const int point : {lip, corner})
     EXPECT_NEAR(moved_m(point, 21) / moved_m(point, 30), 1 / 0.3, 0.3) << point;
+}
+
+/// No cell of a table of weights holds the reading of a point.
+TEST(Expressions, PointsThatShapesCarryTooFarAreNotCalledReadings) {
+  motion::Motion motion;
+  motion.names = {"ibug68_62"};
+  motion.time_s = {0, 0.1};
+  motion.positions = {Points::Zero(1, 3), Points::Constant(1, 3, 0.02)};
+  motion.source = "weights.csv";
+  motion.lines = {2, 3};
+  const auto of_weights = far_points_warning(motion, Readings::of_weights);
+  ASSERT_TRUE(of_weights);
+  EXPECT_THAT(of_weights->text, testing::HasSubstr("correct the weights or the rig's shapes"));
+  EXPECT_THAT(of_weights->text, testing::Not(testing::HasSubstr("readings")));
+  EXPECT_THAT(far_points_warning(motion)->text, testing::HasSubstr("correct the readings"));
 }
 
 /// Both eyes look to the left by half; then the left one looks up.

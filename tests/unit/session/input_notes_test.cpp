@@ -8,6 +8,7 @@
 
 #include "apps/good_inputs.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/io/scan.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -47,6 +48,20 @@ class InputNotes : public testing::Test {
 TEST_F(InputNotes, OfSoundInputsAreNoWarnings) {
   EXPECT_THAT(warnings(), IsEmpty());
   EXPECT_THAT(notes(), Contains(AllOf(is_note("recording.timing"), says("0.5 s: 16 samples"))));
+}
+
+/// Without landmarks, too: then nothing else looks at the scan before a run.
+TEST_F(InputNotes, NameAScanWhoseTrianglesAreTurned) {
+  io::Scan scan = io::read_scan(folder_ / "face.ply", io::LengthUnit::millimetre);
+  for (Eigen::Index f = 0; f < scan.mesh.triangles.rows(); f += 4)
+    std::swap(scan.mesh.triangles(f, 0), scan.mesh.triangles(f, 1));
+  io::write_ply(folder_ / "turned.ply", scan.mesh, io::LengthUnit::millimetre);
+  const std::string text =
+      "scan.file = \"turned.ply\"\nscan.unit = \"mm\"\nmotion.file = \"motion.csv\"\n";
+  const auto found =
+      read_inputs(scene::read_scene(folder_.write("turned.toml", text)), Extent::quick);
+  EXPECT_THAT(found.notes,
+              Contains(AllOf(is_warning("scan.turned_triangles"), says("turned inside out"))));
 }
 
 TEST_F(InputNotes, KnowSlowRecordingsFromMilliseconds) {

@@ -32,6 +32,8 @@ TEST(NearestRegion, KeepsTheSide) {
   EXPECT_EQ(nearest_region("chek"), "cheek");
   EXPECT_EQ(nearest_region("cheek_R"), "");
   EXPECT_EQ(nearest_region("elbow"), "");
+  EXPECT_EQ(nearest_region("side_R"), "face_R");
+  EXPECT_EQ(nearest_region("left_half"), "face_L");
 }
 
 TEST(DidYouMeanRegion, IsSaidOfNamesOfRegionsAlone) {

@@ -145,6 +145,19 @@ TEST_F(FarthestPointOfAFace, IsAsFarFromTheMeshAsFromTheSkin) {
   EXPECT_NEAR(found(0.05, {0, 0, 0.004}).from_mesh_m, expected, 1e-6);
 }
 
+TEST(PointsOff, NamesTheFarthestAndCountsTheOthers) {
+  const std::vector<std::string> names = {"ibug68_48", "ibug68_54", "ibug68_8", "ibug68_57"};
+  EXPECT_EQ(points_off_text(names, {0, 1e-5, 0, 0}, 1e-4), "");
+  EXPECT_EQ(points_off_text(names, {0, 7e-4, 0, 0}, 1e-4),
+            "1 driven point ends up to 0.70 mm from where it is driven: ibug68_54 (corner of the "
+            "mouth, left)");
+  EXPECT_EQ(points_off_text(names, {3e-4, 7e-4, 2e-4, 1e-5}, 1e-4),
+            "3 driven points end up to 0.70 mm from where they are driven, the farthest: ibug68_54 "
+            "(corner of the mouth, left), ibug68_48 (corner of the mouth, right)");
+  EXPECT_THAT(points_off_text(names, {3e-4, 3e-3, 2e-4, 1e-5}, 1e-4), HasSubstr("ibug68_8 ("))
+      << "all where the distance matters";
+}
+
 TEST_F(FarthestPointOfAFace, IsExplainedInTheNoteOfARun) {
   const auto mesh = std::make_shared<const tissue::TissueMesh>(face_.mesh);
   const AlignedMotion opening = test::mouth_opening(landmarks_, 10, 13, 30);

@@ -102,6 +102,25 @@ TEST(LipCut, ClosedCanonicalFaceIsCutByItsLandmarksOrCrease) {
   expect_rims_on_their_own_lips(mesh);
 }
 
+/// Files with several normals at a vertex repeat it, at worst once per triangle.
+TEST(LipCut, OfAScanWhoseTrianglesShareNoVerticesLeavesOneSkin) {
+  const Face whole = closed_face();
+  Face parted = whole;
+  const Triangles& triangles = whole.scan.triangles;
+  parted.scan.points.resize(triangles.size(), 3);
+  for (Eigen::Index i = 0; i < triangles.size(); ++i) {
+    parted.scan.points.row(i) = whole.scan.points.row(triangles.data()[i]);
+    parted.scan.triangles.data()[i] = int(i);
+  }
+  const TissueMesh mesh = cut_mesh(parted), expected = cut_mesh(whole);
+  EXPECT_EQ(boundary_loops(mesh.skin.triangles).size(),
+            boundary_loops(expected.skin.triangles).size());
+  EXPECT_TRUE(mouth_is_open(mesh.skin, parted.landmarks));
+  EXPECT_TRUE(mesh.skin.points.topRows(mesh.scan_vertices) == parted.scan.points)
+      << "files refer to them by number";
+  expect_rims_on_their_own_lips(mesh);
+}
+
 TEST(LipCut, CanBeForbidden) {
   const Face face = closed_face();
   TissueMeshOptions options;

@@ -94,6 +94,10 @@ TEST(ScanLandmarks, NoFaceIsSaidInOneLine) {
   const std::string said = test::refusal([&] { find_scan_landmarks(ball, {}, "ball.ply"); });
   EXPECT_THAT(said, HasSubstr("ball.ply: no face was found"));
   EXPECT_EQ(said.find('\n'), std::string::npos);
+  for (Eigen::Index f = 0; f < ball.triangles.rows(); f += 3)
+    std::swap(ball.triangles(f, 0), ball.triangles(f, 1));
+  EXPECT_THAT(test::refusal([&] { find_scan_landmarks(ball, {}, "ball.ply"); }),
+              HasSubstr("some of its triangles are turned inside out"));
 }
 
 TEST(ScanLandmarks, AFaceInsideOutIsNotTakenForOne) {

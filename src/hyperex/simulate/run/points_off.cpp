@@ -2,9 +2,13 @@
 #include "hyperex/simulate/run/points_off.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+
+#include "hyperex/face/point_words.hpp"
 
 #include "hyperex/face/point_words.hpp"
 
@@ -93,6 +97,26 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
   return out;
 }
 
+std::string points_off_text(const std::vector<std::string>& names, const std::vector<double>& off_m,
+                            double within_m) {
+  constexpr double matters_m = 0.002;
+  constexpr std::size_t few = 2, some = 5;
+  std::vector<std::size_t> off;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    if (off_m[i] > within_m) off.push_back(i);
+  if (off.empty()) return "";
+  std::ranges::stable_sort(off, std::ranges::greater{}, [&](std::size_t i) { return off_m[i]; });
+  const double most_m = off_m[off.front()];
+  std::vector<std::string> named;
+  for (const std::size_t i : off)
+    if (named.size() < (most_m < matters_m ? few : some))
+      named.push_back(fmt::format("{} ({})", names[i], face::point_words(names[i])));
+  return fmt::format("{} driven point{} up to {:.2f} mm from where {} driven{}: {}", off.size(),
+                     off.size() > 1 ? "s end" : " ends", 1e3 * most_m,
+                     off.size() > 1 ? "they are" : "it is",
+                     off.size() > named.size() ? ", the farthest" : "", fmt::join(named, ", "));
+}
+
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched) {
   if (options.region.measured == Measured::all) return "";
   const bool by_forces = options.drive.by != DriveBy::displacement;
@@ -118,9 +142,8 @@ std::string reason_of(const FarthestPoint& point, const SimulationOptions& optio
   if (changes_muscles(options.muscles))
     return "muscles.gain or muscles.mirrored changes the forces that were found for them";
   return fmt::format(
-      "with drive.by = \"{}\" forces carry the points, which is exact only in static equilibrium "
-      "and in the tissue for which they were found: viscosity and inertia delay a motion; "
-      "drive.by = \"displacement\" meets the points",
+      "with drive.by = \"{}\" forces carry the points, exactly only at rest and in the tissue for "
+      "which they were found; drive.by = \"displacement\" meets them",
       word_of(options.drive.by));
 }
 

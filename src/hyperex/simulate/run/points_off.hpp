@@ -31,6 +31,13 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
                              const PointCurve& wanted, const std::vector<double>& frame_time_s,
                              double step_s, const std::vector<double>& off_m);
 
+/// "3 driven points end up to 0.74 mm from where they are driven, the farthest: ibug68_48 (corner
+/// of the mouth, right), ibug68_54 (corner of the mouth, left)", of the points that are off by more
+/// than `within_m`: the two farthest, five where one is off by 2 mm or more. Empty where none is.
+/// `off_m`: one per name.
+std::string points_off_text(const std::vector<std::string>& names, const std::vector<double>& off_m,
+                            double within_m);
+
 /// Why the point ends elsewhere than it is driven, as a part of a sentence. Empty where no cause
 /// can be established. `touched`: contact changed some frame.
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched);

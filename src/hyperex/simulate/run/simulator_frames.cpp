@@ -1,14 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stored frames of a run, and its report.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
-#include <functional>
 #include <utility>
 
-#include "hyperex/core/add_rest.hpp"
-#include "hyperex/face/point_words.hpp"
 #include "hyperex/fem/form/inverted.hpp"
 #include "hyperex/simulate/run/points_off.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
@@ -98,25 +94,14 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
 void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const PointCurve& points,
                                       const std::vector<double>& frame_time_s) {
   const DrivenPoints& driven = stages.points.value();
-  constexpr std::size_t most_named = 3;
-  std::vector<std::size_t> off;  // the farthest first
-  for (std::size_t i = 0; i < off_m.size(); ++i) {
-    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * off_m[i]);
-    if (off_m[i] > kDrivenWithin_m) off.push_back(i);
-  }
-  if (off.empty()) return;
-  std::ranges::stable_sort(off, std::greater{}, [&](std::size_t i) { return off_m[i]; });
-  std::vector<std::string> names;
-  for (std::size_t i = 0; i < std::min(off.size(), most_named); ++i)
-    names.push_back(face::name_in_words(driven.names[off[i]]));
-  add_rest(names, off.size());
+  for (const double one_m : off_m)
+    report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * one_m);
+  const std::string text = points_off_text(driven.names, off_m, kDrivenWithin_m);
+  if (text.empty()) return;
   const std::string reason =
       reason_of(farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m),
                 options, report.contact.frames > 0);
-  warn("drive.points_off", "drive.points",
-       fmt::format("driven points end up to {:.2f} mm from where they are driven: {}{}{}",
-                   report.driven_off_mm, fmt::join(names, ", "), reason.empty() ? "" : "; ",
-                   reason));
+  warn("drive.points_off", "drive.points", text + (reason.empty() ? "" : "; ") + reason);
 }
 
 void Simulator::Impl::warn(const char* id, const char* key, std::string text) {

@@ -36,7 +36,12 @@ SkinBuilder::SkinBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
   }
   for (const auto& note : clean_.notes)
     out_.notes.push_back(make_note("scan.mended", "scan: " + note));
+  first_ = first_at_same_place(scan.points);
   out_.skin = scan;
+  // Files with several normals or textures at a vertex repeat it. The skin would fall into pieces,
+  // each with a border of its own.
+  out_.skin.triangles =
+      scan.triangles.unaryExpr([&](int vertex) { return first_[std::size_t(vertex)]; });
   out_.scan_vertices = scan.points.rows();
   out_.source_triangle.resize(scan.triangles.rows());
   std::iota(out_.source_triangle.begin(), out_.source_triangle.end(), 0);
@@ -124,13 +129,13 @@ void SkinBuilder::apply(const CutSurface& cut) {
 }
 
 /// The skin's vertex for one of the cut working copy, in the scan triangle that it came from: the
-/// scan's own one, of which there may be several at a place.
+/// first of the scan's at that place.
 int SkinBuilder::scan_corner(int vertex, int clean_triangle, int scan_triangle) const {
   const auto old = static_cast<int>(clean_.source_vertex.size());
   if (vertex >= old) return static_cast<int>(out_.scan_vertices) + vertex - old;
   for (int k = 0; k < 3; ++k)
     if (clean_.mesh.triangles(clean_triangle, k) == vertex)
-      return scan_.triangles(scan_triangle, k);
+      return first_[std::size_t(scan_.triangles(scan_triangle, k))];
   throw std::logic_error("a piece of a triangle has a foreign corner");
 }
 
@@ -165,6 +170,7 @@ std::vector<MeshPlace> SkinBuilder::places_of_skin(const ThinMesh& thin) const {
     for (int k = 0; k < 3; ++k) places[v].vertex[k] = thin.mesh.triangles(near.triangle, k);
     places[v].weight = near.weights;
   }
+  for (std::size_t v = 0; v < first_.size(); ++v) places[v] = places[std::size_t(first_[v])];
   return places;
 }
 

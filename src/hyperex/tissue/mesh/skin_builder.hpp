@@ -43,6 +43,7 @@ class SkinBuilder {
   const io::Landmarks& landmarks_;
   std::string source_;
   TissueMesh& out_;
+  std::vector<int> first_;  // of each vertex of the scan, the first one at its place
   CleanMesh clean_;
   Eigen::Index uncut_triangles_ = 0;  // of the working copy, before the cut
 };

@@ -95,7 +95,8 @@ struct Anchor {
 struct TissueMesh {
   /// The scan as given. If its lips were cut, each triangle that the cut crosses is replaced by one
   /// of its pieces; the other pieces and the new vertices are appended. If the scan was thinned
-  /// (`full`), "the scan" means the thinned scan.
+  /// (`full`), "the scan" means the thinned scan. Of vertices at exactly the same place, triangles
+  /// use the first; the others are carried along, as files refer to the scan's vertices by number.
   TriMesh skin;
   std::shared_ptr<const FullSkin> full;  ///< where the scan was thinned
   Eigen::Index scan_vertices = 0;

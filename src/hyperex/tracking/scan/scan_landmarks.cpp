@@ -13,7 +13,9 @@
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/closest_point.hpp"
+#include "hyperex/geometry/turned_triangles.hpp"
 #include "hyperex/tracking/scan/find_front.hpp"
+#include "hyperex/tracking/scan/lid_edges.hpp"
 
 namespace hyperex::tracking {
 namespace {
@@ -123,6 +125,16 @@ Vec3 agreed(const std::vector<PictureRays>& seen, int i, Vec3 point, const Vec3&
   return point;
 }
 
+[[noreturn]] void refuse_no_face(const TriMesh& scan, const std::string& source) {
+  const std::string turned = turned_triangles_doubt(scan);
+  throw InputError(
+      source, "no face was found in this scan from any side: " +
+                  (turned.empty() ? "expected a face, its triangles running counter-clockwise as "
+                                    "seen from outside; give its landmarks by hand "
+                                    "(docs/landmarks.md)"
+                                  : turned));
+}
+
 }  // namespace
 
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
@@ -133,11 +145,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   if (options.scan_from_canonical)
     pose = find_front_near(viewer, tracker, *options.scan_from_canonical);
   if (!pose) pose = find_front(viewer, tracker);
-  if (!pose)
-    throw InputError(source,
-                     "no face was found in this scan from any side: expected a face, its triangles "
-                     "running counter-clockwise as seen from outside; give its landmarks by hand "
-                     "(docs/landmarks.md)");
+  if (!pose) refuse_no_face(scan, source);
   const auto seen = look_from_views(scan, colours, tracker, *pose, options);
   if (seen.empty())
     throw InputError(source, "a face was found but not recognised again from its front");
@@ -160,6 +168,7 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   for (int i = 0; i < face_point_count; ++i)
     found.face_points.row(i) = surface.query(points.row(i).transpose()).point.transpose();
   found.scan_from_canonical = fit_similarity(canonical.mesh.points, points);
+  lids_to_edges(found.landmarks, scan, found.scan_from_canonical.rotation);
   found.views = int(seen.size());
   for (const PictureRays& o : seen) found.score += o.score / double(seen.size());
   found.spread_m = off.empty() ? 0 : median(off);

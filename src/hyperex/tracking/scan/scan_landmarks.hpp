@@ -40,8 +40,9 @@ struct ScanLandmarks {
 /// face is found (find_front.hpp) and rendered from several directions, and the landmark network
 /// (LandmarkTracker) gives 468 points in each picture. For each point, the position closest to all
 /// its rays is computed by least squares; the weight of a view decreases with the distance of its
-/// ray and with the inclination of the surface. The closest point of the surface is the result. The
-/// same scan always gives the same result. Throws InputError, naming `source`, if no face is found.
+/// ray and with the inclination of the surface. The closest point of the surface is the result, for
+/// a lid whose inner side that is, the edge in front of it (up to 4 mm aside). The same scan always
+/// gives the same result. Throws InputError, naming `source`, if no face is found.
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source,
                                   const ScanLandmarkOptions& options = {});

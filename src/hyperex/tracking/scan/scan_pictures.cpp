@@ -64,7 +64,11 @@ render::Image draw_scan_landmarks(const TriMesh& scan, const render::VertexColou
   const Eigen::Matrix3d scan_from_face = found.scan_from_canonical.rotation;
   const render::RenderOptions size{.width_px = 520, .height_px = 640};
   render::ContactSheet sheet{
-      .title = title, .note = "blue: the 68 iBUG points; red: anatomical landmarks", .columns = 3};
+      .title = title,
+      .note =
+          "blue: the 68 iBUG points; red: anatomical landmarks; hollow: up to 5 mm behind the "
+          "surface",
+      .columns = 3};
   const Points pictured = pictured_points(scan, found);
   constexpr double turn = 0.75;
   for (const auto& [yaw, caption] :
