@@ -53,7 +53,7 @@ BlendShapes read_openface(const std::filesystem::path& file);
 /// that its `arkit_negative` names. A name with "*" means two blend shapes, one with Left and one
 /// with Right in its place. The points are in the model's frame and size, without head pose. They
 /// are NaN where the face was not seen. Adds a note on blend shapes that the model does not have,
-/// except those of gaze, which turn the eyes (gaze.hpp). With these alone the points stay at rest.
+/// except those of gaze, which turn the eyes (gaze.hpp). A gaze aside alone leaves points at rest.
 /// Where the model says so (lids_once), lids follow the gaze as with_lids_once() states.
 /// Throws InputError if no blend shape moves the model or the eyes.
 motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,

@@ -88,7 +88,8 @@ BlendShapes with_lids_once(BlendShapes shapes) {
       if (follows == shapes.weights.cols() || moved == shapes.weights.cols()) continue;
       for (Index k = 0; k < shapes.weights.rows(); ++k) {
         double& weight = shapes.weights(k, follows);
-        const double rest = weight - share * shapes.weights(k, moved);
+        const double lowered = shapes.weights(k, moved);
+        const double rest = weight - share * (lowered < 0 ? 0 : lowered);
         weight = rest < 0 ? 0 : rest;  // not std::max: what was not measured stays so
       }
     }

@@ -9,8 +9,8 @@
 namespace hyperex::expression {
 
 /// The shapes whose weight exceeds 0.3 but which the model does not have, as in "tongueOut up to
-/// 0.65 at 83.2 s; ..."; empty if there are none. Gaze is excluded, because it does not move the
-/// skin. Only what lies from `from_s` to `to_s` counts, in seconds from the first sample.
+/// 0.65 at 83.2 s; ..."; empty if there are none. Gaze is excluded, because it turns the
+/// eyes. Only what lies from `from_s` to `to_s` counts, in seconds from the first sample.
 std::string lost_shapes(const BlendShapes& shapes, const FaceModel& model, double from_s = 0,
                         double to_s = std::numeric_limits<double>::infinity());
 

@@ -83,6 +83,7 @@ bool is_of_a_part(int number) {
 bool is_further(const motion::Motion& motion, const std::vector<std::string>& driven,
                 const std::string& name) {
   if (is_driven(motion, driven, name)) return false;
+  if (std::ranges::find(kLidMiddles, name) != kLidMiddles.end()) return false;  // not recorded
   const bool listed_as_other =
       !face::ibug_number(name) && motion.index_of(face::other_name(name)) >= 0;
   const auto number = face::ibug_number_of_place(name);

@@ -164,18 +164,30 @@ TEST_F(Looking, TurnsTheEyesOfBaseAndVariants) {
   EXPECT_EQ(face.backing()->eyeballs.size(), 2u);
 }
 
-TEST(Expressions, AGazeAloneTurnsTheEyesOfAFaceAtRest) {
+TEST(Expressions, AGazeAsideAloneTurnsTheEyesOfAFaceAtRest) {
   const SceneFolder folder;
-  folder.write("gaze.csv",
-               "time_s,eyeLookDownLeft,eyeLookDownRight\n0,0,0\n0.1,0.5,0.5\n0.2,1,1\n");
+  folder.write("gaze.csv", "time_s,eyeLookOutLeft,eyeLookInRight\n0,0,0\n0.1,0.5,0.5\n0.2,1,1\n");
   const Inputs in = read_inputs(read_scene(
       folder.write("gaze.toml", "scan.file = \"embedded\"\nmotion.arkit = \"gaze.csv\"\n")));
-  EXPECT_NEAR(expression::degrees_of(in.gaze.value().at(0.2))[1], -expression::kLookDown_deg, 1e-6);
+  const auto degrees = expression::degrees_of(in.gaze.value().at(0.2));
+  for (const std::size_t yaw : {0, 2})
+    EXPECT_NEAR(degrees[yaw], expression::kLookAside_deg, 1e-6) << "to the subject's left";
   for (const Points& at : in.motion.motion.positions)
     EXPECT_LT((at - in.motion.motion.positions[0]).cwiseAbs().maxCoeff(), 1e-12);
   EXPECT_THAT(in.notes, testing::Contains(testing::AllOf(
                             test::is_warning("recording.nothing_moves"),
                             test::says("nothing moves in the recording but the eyes"))));
+}
+
+TEST(Expressions, LidsFollowAGazeDownAlone) {
+  const SceneFolder folder;
+  folder.write("gaze.csv", "time_s,eyeLookDownLeft\n0,0\n0.1,0.5\n0.2,1\n");
+  const Inputs in = read_inputs(read_scene(
+      folder.write("gaze.toml", "scan.file = \"embedded\"\nmotion.arkit = \"gaze.csv\"\n")));
+  const motion::Motion& m = in.motion.motion;
+  const auto lid = m.index_of("ibug68_43");
+  EXPECT_LT(m.positions.back()(lid, 1) - m.positions.front()(lid, 1), -2e-3);
+  EXPECT_THAT(in.notes, testing::Not(testing::Contains(test::has_id("recording.nothing_moves"))));
 }
 
 TEST(Expressions, WithoutAGazeTurnNoEyes) {

@@ -3,13 +3,16 @@
 
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <set>
+#include <vector>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
@@ -119,6 +122,16 @@ TEST(LipCut, OfAScanWhoseTrianglesShareNoVerticesLeavesOneSkin) {
   EXPECT_TRUE(mesh.skin.points.topRows(mesh.scan_vertices) == parted.scan.points)
       << "files refer to them by number";
   expect_rims_on_their_own_lips(mesh);
+  const std::vector<int> first = first_at_same_place(parted.scan.points);
+  std::map<int, const RimVertex*> rim;
+  for (const RimVertex& vertex : mesh.rim) rim[vertex.vertex] = &vertex;
+  EXPECT_EQ(rim.size(), mesh.rim.size());
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    const auto one = std::size_t(first[v]);
+    EXPECT_EQ(mesh.anchors[v].node, mesh.anchors[one].node) << v;
+    ASSERT_EQ(rim.contains(int(v)), rim.contains(int(one))) << v;
+    if (rim.contains(int(v))) EXPECT_EQ(rim[int(v)]->node, rim[int(one)]->node) << v;
+  }
 }
 
 TEST(LipCut, CanBeForbidden) {

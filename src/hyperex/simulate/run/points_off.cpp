@@ -10,8 +10,6 @@
 
 #include "hyperex/face/point_words.hpp"
 
-#include "hyperex/face/point_words.hpp"
-
 namespace hyperex::simulate {
 namespace {
 
@@ -110,7 +108,7 @@ std::string points_off_text(const std::vector<std::string>& names, const std::ve
   std::vector<std::string> named;
   for (const std::size_t i : off)
     if (named.size() < (most_m < matters_m ? few : some))
-      named.push_back(fmt::format("{} ({})", names[i], face::point_words(names[i])));
+      named.push_back(face::name_in_words(names[i]));
   return fmt::format("{} driven point{} up to {:.2f} mm from where {} driven{}: {}", off.size(),
                      off.size() > 1 ? "s end" : " ends", 1e3 * most_m,
                      off.size() > 1 ? "they are" : "it is",

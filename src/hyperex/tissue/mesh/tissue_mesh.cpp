@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <stdexcept>
 #include <utility>
 
@@ -213,6 +214,27 @@ GradedSize graded_size(const io::Landmarks& landmarks, const TissueMeshOptions& 
 
 }  // namespace
 
+namespace {
+
+/// Vertices of the scan that are at one place move as the first of them, which is the one that
+/// triangles of the skin have.
+void move_repeated_vertices(TissueMesh& mesh) {
+  const std::vector<int> first = first_at_same_place(mesh.skin.points.topRows(mesh.scan_vertices));
+  std::map<int, std::size_t> at_rim;
+  for (std::size_t i = 0; i < mesh.rim.size(); ++i) at_rim[mesh.rim[i].vertex] = i;
+  for (std::size_t v = 0; v < first.size(); ++v) {
+    if (first[v] == int(v)) continue;
+    mesh.anchors[v] = mesh.anchors[std::size_t(first[v])];
+    if (const auto at = at_rim.find(first[v]); at != at_rim.end() && !at_rim.contains(int(v))) {
+      RimVertex copy = mesh.rim[at->second];
+      copy.vertex = int(v);
+      mesh.rim.push_back(std::move(copy));
+    }
+  }
+}
+
+}  // namespace
+
 TissueMeshBuilder::TissueMeshBuilder(const TriMesh& scan, const io::Landmarks& landmarks,
                                      const TissueMeshOptions& options, std::string source,
                                      const std::vector<char>& held,
@@ -255,6 +277,7 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
     anchor_skin(out, landmarks_);
     out.rim = rim_vertices(out.skin, out.volume.outer, out.anchors, out.on_border);
+    move_repeated_vertices(out);
   });
   return std::move(mesh_);
 }
