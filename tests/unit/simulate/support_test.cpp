@@ -76,8 +76,12 @@ TEST(OverFrontalis, IsTheForeheadAboveTheBrows) {
         nearest = from.norm();
         height = from.y();
       }
-    if (nearest > 0.036 || height < -0.002) EXPECT_FALSE(over[std::size_t(v)]) << v;
-    if (nearest < 0.034 && height > 0.002) EXPECT_TRUE(over[std::size_t(v)]) << v;
+    if (nearest > 0.036 || height < -0.002) {
+      EXPECT_FALSE(over[std::size_t(v)]) << v;
+    }
+    if (nearest < 0.034 && height > 0.002) {
+      EXPECT_TRUE(over[std::size_t(v)]) << v;
+    }
   }
 }
 
