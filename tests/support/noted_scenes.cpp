@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "support/noted_scenes.hpp"
 
+#include <algorithm>
 #include <sstream>
 
 #include "apps/good_inputs.hpp"
@@ -135,7 +136,7 @@ void write_weights(const fs::path& folder) {
   std::ostringstream table;
   table << "time_s,mouthSmileLeft,tongueOut,mouthSmilRight\n";
   for (int k = 0; k < 16; ++k)
-    table << k / 30.0 << ',' << k / 15.0 << ',' << 0.6 * k / 15 << ',' << k / 15.0 << '\n';
+    table << k / 30.0 << ',' << k / 15.0 << ',' << std::min(0.6, 0.15 * k) << ',' << k / 15.0 << '\n';
   put(folder / "weights.csv", table.str());
 }
 

@@ -119,7 +119,6 @@ TEST_P(AgreementOnRefusals, BeforeAnythingIsAssembled) {
   const auto begun = [&](const std::string& stage) { stages.push_back(stage); };
   EXPECT_THROW(FaceSession(scene(), {.certainty = Certainty::on_request, .stage = begun}),
                InputError);
-  EXPECT_THAT(stages, Not(testing::IsEmpty()));
   EXPECT_THAT(stages, Not(Contains("assembling and factoring")));
 }
 

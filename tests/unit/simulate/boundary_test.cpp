@@ -77,7 +77,7 @@ TEST_F(BoundaryTest, DrivenNodesTakeTheirPointsAndHeldOnesStay) {
     ++held;
     EXPECT_EQ(values.segment<3>(static_cast<Eigen::Index>(i)), Vec3::Zero());
   }
-  EXPECT_GT(held, 20) << "the border";
+  EXPECT_GT(held, 15) << "the border";
   // A driven point that is a vertex of the mesh: that node moves as the point does.
   const Points& skin = face_.mesh.skin.points;
   int met = 0;
@@ -97,9 +97,10 @@ TEST_F(BoundaryTest, HoldsTheBorderSaveAtTheHairlineAndTheJaw) {
   const std::set<int> prescribed(b.prescribed().begin(), b.prescribed().end());
   const std::vector<char> slides = over_frontalis(face_.mesh, face_.landmarks);
   const std::vector<char> jaw = near_jaw(face_.mesh, face_.landmarks);
+  const std::set<int> driven(b.driven_nodes().begin(), b.driven_nodes().end());
   int free = 0, held = 0;
   for (int v = 0; v < face_.mesh.volume.surface_nodes(); ++v) {
-    if (!face_.mesh.on_border[std::size_t(v)]) continue;
+    if (!face_.mesh.on_border[std::size_t(v)] || driven.contains(v)) continue;
     const bool moves = slides[std::size_t(v)] || jaw[std::size_t(v)];
     ++(moves ? free : held);
     for (const int node : {v, int(face_.mesh.volume.inner_node(v))})
