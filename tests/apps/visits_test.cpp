@@ -80,7 +80,7 @@ TEST_F(Visits, WarnOfJitterThatIsNotKnown) {
   const Outcome outcome = call("visits v.toml");
   EXPECT_EQ(outcome.status, 0) << outcome.err;
   EXPECT_THAT(outcome.err, HasSubstr("jitter_mm"));
-  EXPECT_THAT(outcome.out, HasSubstr("not known  cannot tell"));
+  EXPECT_THAT(outcome.out, HasSubstr("-0.9          not known  no"));
 }
 
 TEST_F(Visits, TakeTheHeadOutByTheSamePointsAtEachVisit) {

@@ -213,8 +213,9 @@ TEST_F(StudioSession, ComparesARecordingWithTheOneBefore) {
   EXPECT_THAT(compared("taken").value("error", ""), HasSubstr("expected another name"));
   const json answer = compared("change");
   ASSERT_FALSE(answer.contains("error")) << answer;
-  EXPECT_THAT(answer["sentences"][0].get<std::string>(),
-              testing::AllOf(HasSubstr("Right corner of the mouth"), HasSubstr("6.2 mm less; whether")));
+  EXPECT_THAT(
+      answer["sentences"][0].get<std::string>(),
+      testing::AllOf(HasSubstr("Right corner of the mouth"), HasSubstr("6.2 mm less; whether")));
   const std::string page = read_file(folder_.path() / "mine" / "change.html");
   EXPECT_THAT(page, HasSubstr("visit2.csv"));
   EXPECT_EQ(page.find("uploads"), std::string::npos) << "the studio's own folder means nothing";
