@@ -10,7 +10,7 @@
 #include "hyperex/scene/override.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/scene/variant_presets.hpp"
-#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 
 namespace hyperex::cli {
 namespace {

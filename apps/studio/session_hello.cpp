@@ -5,8 +5,8 @@
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/scene/variant_presets.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 #include "hyperex/tissue/field/presets.hpp"
-#include "hyperex/tissue/field/regions.hpp"
 #include "session.hpp"
 
 namespace hyperex::studio {

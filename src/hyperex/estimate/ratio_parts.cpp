@@ -9,7 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/unknown_names.hpp"
-#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 
 namespace hyperex::estimate {
 namespace {

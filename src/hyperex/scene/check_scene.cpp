@@ -11,7 +11,7 @@
 #include "hyperex/scene/region_names.hpp"
 #include "hyperex/scene/scene_reader.hpp"
 #include "hyperex/scene/values.hpp"
-#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 
 namespace hyperex::scene {
 

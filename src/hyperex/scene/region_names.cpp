@@ -6,7 +6,7 @@
 
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/scene/keys.hpp"
-#include "hyperex/tissue/field/regions.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 
 namespace hyperex::scene {
 

@@ -3,15 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
-#include <stdexcept>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/smooth_step.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
-#include "hyperex/tissue/field/data.hpp"
 
 namespace hyperex::tissue {
 namespace {
@@ -81,30 +78,6 @@ std::vector<double> lip_margins(Eigen::Index vertices) {
 }
 
 }  // namespace
-
-const std::vector<FacialRegion>& facial_regions() {
-  static const std::vector<FacialRegion> regions = [] {
-    std::vector<FacialRegion> list;
-    std::istringstream lines{std::string(regions_csv())};
-    for (std::string line; std::getline(lines, line);) {
-      if (line.empty() || line[0] == '#' || line.starts_with("name,")) continue;
-      const auto first = line.find(','), second = line.find(',', first + 1);
-      // Our own file: a fault in it is a fault of the build.
-      if (second == std::string::npos)
-        throw std::logic_error("the table of regions inside this program is damaged");
-      FacialRegion region{line.substr(0, first), line.substr(first + 1, second - first - 1), {}};
-      std::istringstream words(line.substr(second + 1));
-      for (int v; words >> v;) region.vertices.push_back(v);
-      list.push_back(std::move(region));
-    }
-    return list;
-  }();
-  return regions;
-}
-
-bool is_region(const std::string& name) {
-  return find_region(without_side(name)) != nullptr;
-}
 
 RegionMap::RegionMap(const TissueMesh& mesh, const io::Landmarks& landmarks,
                      const anatomy::RegisteredFace& face) {

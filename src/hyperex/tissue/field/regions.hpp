@@ -7,19 +7,11 @@
 #include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
+#include "hyperex/tissue/field/facial_regions.hpp"
 #include "hyperex/tissue/mesh/side_tree.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::tissue {
-
-/// A named part of the face, symmetric (data/regions.csv).
-struct FacialRegion {
-  std::string name, meaning;
-  std::vector<int> vertices;  ///< of the canonical face
-};
-const std::vector<FacialRegion>& facial_regions();
-/// Whether `name` is that of a region, alone or with _L or _R.
-bool is_region(const std::string& name);
 
 /// The position of each vertex of a skin on the canonical face registered to it.
 class RegionMap {
