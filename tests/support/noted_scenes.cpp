@@ -136,7 +136,8 @@ void write_weights(const fs::path& folder) {
   std::ostringstream table;
   table << "time_s,mouthSmileLeft,tongueOut,mouthSmilRight\n";
   for (int k = 0; k < 16; ++k)
-    table << k / 30.0 << ',' << k / 15.0 << ',' << std::min(0.6, 0.15 * k) << ',' << k / 15.0 << '\n';
+    table << k / 30.0 << ',' << k / 15.0 << ',' << std::min(0.6, 0.15 * k) << ',' << k / 15.0
+          << '\n';
   put(folder / "weights.csv", table.str());
 }
 

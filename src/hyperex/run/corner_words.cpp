@@ -109,8 +109,9 @@ std::string unpulled_lines(const Json& variant) {
         "    no muscle pulls on the {}: what motion is left there comes from the jaw{}, the other "
         "side, and forces that no muscle explains\n",
         letter == "R" ? "right" : "left",
-        !(jaw_mm >= kSame_mm) ? ""
-                          : fmt::format(" (fixed to it, the corner would go {:.1f} mm)", jaw_mm));
+        !(jaw_mm >= kSame_mm)
+            ? ""
+            : fmt::format(" (fixed to it, the corner would go {:.1f} mm)", jaw_mm));
   }
   return lines;
 }

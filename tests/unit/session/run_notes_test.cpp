@@ -34,9 +34,9 @@ TEST(RunWarnings, LipsThatPassByMoreThanHalfAMillimetre) {
   report.lip_overlap_mm = 0.52;
   EXPECT_THAT(run_warnings(report, {}),
               ElementsAre(is_warning("lips.pass_through", "contact.lips")));
-  EXPECT_THAT(
-      run_warnings(report, {}),
-      ElementsAre(AllOf(says("0.5 mm"), says("off by at most that much"), says("contact.lips = true"))));
+  EXPECT_THAT(run_warnings(report, {}),
+              ElementsAre(AllOf(says("0.5 mm"), says("off by at most that much"),
+                                says("contact.lips = true"))));
 }
 
 TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
