@@ -73,7 +73,7 @@ TEST_F(Variants, ColumnsOfASideHoldThatSide) {
   const auto summary = nlohmann::json::parse(read_file(in("out/summary.json")));
   const auto& table = summary["variants"]["table"];
   ASSERT_EQ(table.size(), 5u);
-  // What still moves the side is said where no muscle of it pulls.
+  // A variant in which no muscle of a side pulls lists that side and says what still moves it.
   EXPECT_EQ(table[3]["unpulled_sides"], nlohmann::json::array());
   EXPECT_EQ(table[4]["unpulled_sides"], nlohmann::json::array({"R"}));
   EXPECT_TRUE(table[4]["commissure_R_with_jaw_mm"].is_number());

@@ -47,8 +47,8 @@ bool is_gaze(const std::string& shape);
 /// is towards the nose (Apple, ARFaceAnchor.BlendShapeLocation).
 std::optional<Gaze> gaze_of_shape(const std::string& shape);
 
-/// How far eyeBlink at weight 1 lowers the upper lid, as a share of what eyeLookDown does at 1, and
-/// how far eyeWide raises it, as a share of eyeLookUp (data/canonical_units.csv).
+/// At weight 1 eyeBlink lowers the upper lid kBlinkOfLookDown times as far as eyeLookDown does, and
+/// eyeWide raises it kWideOfLookUp times as far as eyeLookUp does (data/canonical_units.csv).
 inline constexpr double kBlinkOfLookDown = 1, kWideOfLookUp = 0.48;
 
 /// The weights with which lids follow the gaze once. ARKit's eyeBlink and eyeWide often contain the

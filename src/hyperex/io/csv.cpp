@@ -16,7 +16,8 @@
 namespace hyperex::io {
 namespace {
 
-/// The number that a cell stands for; nothing for other text.
+/// The value of a cell: read as a number or, if it is none, by `number_of`. Empty if that fails
+/// too.
 std::optional<double> number_in(const std::string& name, std::string_view cell,
                                 const TextReader& number_of) {
   const auto number = parse_number(cell);

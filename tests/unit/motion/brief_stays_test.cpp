@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "unit/motion/motions.hpp"
 
@@ -174,13 +172,9 @@ void expect_no_stays(const Motion& motion) {
 }
 
 TEST(BriefStays, AreNotInRecordingsOfFaces) {
-  const auto data = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << "the shared recordings are not here";
-  for (const char* file : {"real/animface/cheeks_mm.csv", "real/spacetime/smile_mm.csv",
-                           "real/spacetime/smile_7_mm.csv"})
-    expect_no_stays(read_motion(data / file));
-  for (const char* folder : {"subject_A_mouth_open", "subject_A_talk", "subject_A_still"})
-    expect_no_stays(read_motion(data / "rgbd" / folder / "truth_landmarks68_camera_m.csv"));
+  const std::vector<Motion> recordings = testing::recordings_of_faces();
+  if (recordings.empty()) GTEST_SKIP() << "the shared recordings are not here";
+  for (const Motion& recording : recordings) expect_no_stays(recording);
 }
 
 }  // namespace

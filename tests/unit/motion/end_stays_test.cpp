@@ -3,9 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
-#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/wild_samples.hpp"
 #include "unit/motion/motions.hpp"
 
@@ -31,18 +29,11 @@ Motion away(double off_m, std::size_t count, End end, Motion motion = breathing(
   return motion;
 }
 
-double most_apart_m(const Motion& a, const Motion& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.positions.size(); ++k)
-    most = std::max(most, (a.positions[k] - b.positions[k]).cwiseAbs().maxCoeff());
-  return most;
-}
-
 void expect_silence(const Motion& motion, const std::string& why) {
   const MendedMotion mended = without_wild_samples(motion);
   EXPECT_TRUE(mended.wild.empty()) << why;
   EXPECT_TRUE(mended.ends.empty()) << why;
-  EXPECT_EQ(most_apart_m(mended.motion, motion), 0) << why;
+  EXPECT_EQ(testing::greatest_difference(mended.motion, motion), 0) << why;
 }
 
 TEST(EndStays, FasterThanLipsAndJawAreLeftOut) {
@@ -55,7 +46,8 @@ TEST(EndStays, FasterThanLipsAndJawAreLeftOut) {
         EXPECT_EQ(mended.wild[0].sample, end == End::first ? 0 : 60 - count);
         EXPECT_TRUE(mended.ends.empty());
         EXPECT_TRUE(mended.jumps.empty());
-        EXPECT_LT(most_apart_m(mended.motion, breathing()), 0.7e-3) << "the nearest one is held";
+        EXPECT_LT(testing::greatest_difference(mended.motion, breathing()), 0.7e-3)
+            << "the nearest one is held";
       }
 }
 
@@ -66,7 +58,7 @@ TEST(EndStays, ThatMayBeRealAreNamedAndKept) {
       const Motion motion = away(off_m, count, end);
       const MendedMotion kept = without_wild_samples(motion);
       EXPECT_TRUE(kept.wild.empty());
-      EXPECT_EQ(most_apart_m(kept.motion, motion), 0);
+      EXPECT_EQ(testing::greatest_difference(kept.motion, motion), 0);
       ASSERT_EQ(kept.ends.size(), count) << off_m << " m";
       EXPECT_EQ(kept.ends[0].point, "p4");
       EXPECT_EQ(kept.ends[0].sample, end == End::first ? 0 : 60 - count);
@@ -118,7 +110,7 @@ TEST(EndStays, OfSlowRecordingsAreNamedFromTwentyMillimetres) {
     const MendedMotion kept = without_wild_samples(motion);
     ASSERT_EQ(kept.ends.size(), 1u);
     EXPECT_EQ(kept.ends[0].sample, end == End::first ? 0u : 6u);
-    EXPECT_EQ(most_apart_m(kept.motion, motion), 0);
+    EXPECT_EQ(testing::greatest_difference(kept.motion, motion), 0);
     expect_silence(away(0.018, 1, end, breathing(6, 7)), "18 mm");
     expect_silence(away(0.03, 2, end, breathing(6, 7)), "two readings");
   }
@@ -171,13 +163,9 @@ void expect_no_ends(const Motion& whole) {
 }
 
 TEST(EndStays, AreNotWhereRecordingsOfFacesAreCut) {
-  const auto data = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
-  if (!std::filesystem::exists(data)) GTEST_SKIP() << "the shared recordings are not here";
-  for (const char* file : {"real/animface/cheeks_mm.csv", "real/spacetime/smile_mm.csv",
-                           "real/spacetime/smile_7_mm.csv"})
-    expect_no_ends(read_motion(data / file));
-  for (const char* folder : {"subject_A_mouth_open", "subject_A_talk", "subject_A_still"})
-    expect_no_ends(read_motion(data / "rgbd" / folder / "truth_landmarks68_camera_m.csv"));
+  const std::vector<Motion> recordings = testing::recordings_of_faces();
+  if (recordings.empty()) GTEST_SKIP() << "the shared recordings are not here";
+  for (const Motion& recording : recordings) expect_no_ends(recording);
 }
 
 }  // namespace

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <functional>
@@ -13,6 +14,7 @@
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "support/refusal.hpp"
 
@@ -52,6 +54,27 @@ inline Motion sampled(int samples, double step_s, const std::vector<std::string>
     motion.positions.push_back(sample);
   }
   return motion;
+}
+
+/// The largest difference of a coordinate between two motions of the same samples and points, m.
+inline double greatest_difference(const Motion& a, const Motion& b) {
+  double most = 0;
+  for (std::size_t k = 0; k < a.positions.size(); ++k)
+    most = std::max(most, (a.positions[k] - b.positions[k]).cwiseAbs().maxCoeff());
+  return most;
+}
+
+/// The shared recordings of real and rendered faces; none where they are not here.
+inline std::vector<Motion> recordings_of_faces() {
+  const auto data = std::filesystem::path(HYPEREX_SHARED_DIR) / "data";
+  std::vector<Motion> all;
+  if (!std::filesystem::exists(data)) return all;
+  for (const char* file : {"real/animface/cheeks_mm.csv", "real/spacetime/smile_mm.csv",
+                           "real/spacetime/smile_7_mm.csv"})
+    all.push_back(read_motion(data / file));
+  for (const char* folder : {"subject_A_mouth_open", "subject_A_talk", "subject_A_still"})
+    all.push_back(read_motion(data / "rgbd" / folder / "truth_landmarks68_camera_m.csv"));
+  return all;
 }
 
 /// The path of a real recording; empty where there is none.

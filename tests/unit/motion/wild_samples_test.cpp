@@ -25,17 +25,10 @@ Motion with_jump(double off_m, std::size_t first, std::size_t last, double step_
   return motion;
 }
 
-double greatest_difference(const Motion& a, const Motion& b) {
-  double most = 0;
-  for (std::size_t k = 0; k < a.positions.size(); ++k)
-    most = std::max(most, (a.positions[k] - b.positions[k]).cwiseAbs().maxCoeff());
-  return most;
-}
-
 TEST(WildSamples, SoundMotionStaysAsItIs) {
   const MendedMotion mended = without_wild_samples(opening());
   EXPECT_TRUE(mended.wild.empty());
-  EXPECT_EQ(greatest_difference(mended.motion, opening()), 0);
+  EXPECT_EQ(testing::greatest_difference(mended.motion, opening()), 0);
 }
 
 TEST(WildSamples, AJumpOfOneOrTwoReadingsIsInterpolated) {
@@ -45,7 +38,7 @@ TEST(WildSamples, AJumpOfOneOrTwoReadingsIsInterpolated) {
     EXPECT_EQ(mended.wild[0].point, "lip");
     EXPECT_EQ(mended.wild[0].sample, 10u);
     EXPECT_NEAR(mended.wild[0].off_m, 0.3, 2e-3);
-    EXPECT_LT(greatest_difference(mended.motion, opening()), 1e-3);
+    EXPECT_LT(testing::greatest_difference(mended.motion, opening()), 1e-3);
   }
 }
 
@@ -54,7 +47,7 @@ TEST(WildSamples, TheFirstAndTheLastReadingAreHeld) {
     const MendedMotion mended = without_wild_samples(with_jump(0.3, at, at));
     ASSERT_EQ(mended.wild.size(), 1u);
     EXPECT_EQ(mended.wild[0].sample, at);
-    EXPECT_LT(greatest_difference(mended.motion, opening()), 5e-3);
+    EXPECT_LT(testing::greatest_difference(mended.motion, opening()), 5e-3);
   }
 }
 
@@ -62,7 +55,7 @@ TEST(WildSamples, WhatStaysAwayIsKeptAndNamedOnTheWayThereAndBack) {
   const Motion motion = with_jump(0.03, 10, 15);
   const MendedMotion mended = without_wild_samples(motion);
   EXPECT_TRUE(mended.wild.empty());
-  EXPECT_EQ(greatest_difference(mended.motion, motion), 0);
+  EXPECT_EQ(testing::greatest_difference(mended.motion, motion), 0);
   ASSERT_EQ(mended.jumps.size(), 2u);
   EXPECT_EQ(mended.jumps[0].point, "lip");
   EXPECT_EQ(mended.jumps[0].sample, 10u);
@@ -106,7 +99,7 @@ TEST(WildSamples, SlowRecordingsMayMoveFartherInASampleAndAreNamed) {
   const Motion slow = with_jump(0.055, 10, 10, 0.1);
   const MendedMotion kept = without_wild_samples(slow);
   EXPECT_TRUE(kept.wild.empty());
-  EXPECT_EQ(greatest_difference(kept.motion, slow), 0);
+  EXPECT_EQ(testing::greatest_difference(kept.motion, slow), 0);
   ASSERT_EQ(kept.lone.size(), 1u);
   EXPECT_EQ(kept.lone[0].point, "lip");
   EXPECT_EQ(kept.lone[0].sample, 10u);
@@ -139,7 +132,7 @@ TEST(WildSamples, ALoneReadingIsWildFromSixMillimetres) {
   EXPECT_EQ(mended.wild[0].point, "p4");
   EXPECT_EQ(mended.wild[0].sample, 12u);
   EXPECT_NEAR(mended.wild[0].off_m, 0.007, 2e-4);
-  EXPECT_LT(greatest_difference(mended.motion, sound), 1e-4);
+  EXPECT_LT(testing::greatest_difference(mended.motion, sound), 1e-4);
   EXPECT_TRUE(without_wild_samples(with_lone(0.0055)).wild.empty());
 }
 
