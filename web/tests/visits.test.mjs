@@ -130,7 +130,8 @@ describe('two visits', { skip: Boolean(given) }, () => {
 test('what a recording lacks is said in place of the picture, and no interval where it is not known', { skip: Boolean(given) }, async () => {
   const visits = madeUpVisits(2);
   Object.assign(visits.visits[1], { picture: '', no_picture: 'the corners of the mouth are not recorded', eye_distance_mm: null });
-  Object.assign(visits.measures[0].changes[1], { low: null, high: null, low_measured: null, high_measured: null, beyond: 'cannot tell' });
+  const right = visits.measures.find(({ side }) => side === 'R'); // The table's first row.
+  Object.assign(right.changes[1], { low: null, high: null, low_measured: null, high_measured: null, beyond: 'cannot tell' });
   const { page, complaints, close } = await openVisits(visits);
   assert.deepEqual(await page.locator('.no-picture').allTextContents(), ['No picture: the corners of the mouth are not recorded']);
   assert.match(await page.locator('#explained').textContent(), /2026-04-12 .*outer eye corners not recorded;/);
