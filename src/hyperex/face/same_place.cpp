@@ -36,14 +36,13 @@ bool same_place(const std::string& a, const std::string& b) {
 }
 
 std::optional<int> ibug_number_of_place(const std::string& name) {
-  const std::optional<int> own = ibug_number(name);
+  const std::optional<int> own = ibug_number(full_name(name));
   return own ? own : ibug_number(other_name(name));
 }
 
 std::string place_name(const std::string& name) {
-  const std::string full = full_name(name);
-  const std::optional<int> number = ibug_number_of_place(full);
-  return number ? ibug(*number) : full;
+  const std::optional<int> number = ibug_number_of_place(name);
+  return number ? ibug(*number) : name;
 }
 
 std::optional<Vec3> find_place(const io::Landmarks& landmarks, const std::string& name) {

@@ -15,8 +15,8 @@ bool same_place(const std::string& a, const std::string& b);
 /// The other name of a landmark, such as ibug68_48 for cheilion_R; empty if it has none.
 std::string other_name(const std::string& name);
 
-/// The number of the iBUG point at this place: 48 for ibug68_48 and for cheilion_R; nothing where
-/// there is none.
+/// The number of the iBUG point at this place: 48 for ibug68_48, for its short names "48" and
+/// "p48", and for cheilion_R; nothing where there is none.
 std::optional<int> ibug_number_of_place(const std::string& name);
 
 /// One name for each place: "ibug68_36" for "36", "p36", "ibug68_36" and "exocanthion_R". Names of

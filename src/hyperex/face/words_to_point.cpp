@@ -64,8 +64,7 @@ std::string name_of_words(const std::string& words) {
 bool moves_with_mouth(const std::string& name) {
   static const std::set<std::string> others = {"stomion", "pogonion", "crista_philtri_superior_L",
                                                "crista_philtri_superior_R"};
-  if (const auto k = ibug_number_of_place(full_name(name)))
-    return (4 <= *k && *k <= 12) || 48 <= *k;
+  if (const auto k = ibug_number_of_place(name)) return (4 <= *k && *k <= 12) || 48 <= *k;
   if (others.contains(name)) return true;
   const Words words = telling_words(name);
   return words.contains("lip") || words.contains("lips") || words.contains("chin") ||

@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "hyperex/core/lower_case.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/motion/point_steps.hpp"
 #include "hyperex/motion/wild_samples.hpp"
@@ -39,7 +38,7 @@ bool is_joined_by_others(const std::vector<Points>& at, const BriefStay& brief, 
 }  // namespace
 
 bool is_of_lid(const std::string& name) {
-  if (const auto k = face::ibug_number_of_place(face::full_name(name)))
+  if (const auto k = face::ibug_number_of_place(name))
     return *k >= 36 && *k <= 47 && *k % 3 != 0;  // 36, 39, 42 and 45 are the corners
   const std::string lower = lower_case(name);
   const auto has = [&](const char* part) { return lower.find(part) != std::string::npos; };

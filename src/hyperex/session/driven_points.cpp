@@ -84,10 +84,12 @@ bool is_further(const motion::Motion& motion, const std::vector<std::string>& dr
                 const std::string& name) {
   if (is_driven(motion, driven, name)) return false;
   if (std::ranges::find(kLidMiddles, name) != kLidMiddles.end()) return false;  // not recorded
-  const bool listed_as_other =
-      !face::ibug_number(name) && motion.index_of(face::other_name(name)) >= 0;
   const auto number = face::ibug_number_of_place(name);
-  return !listed_as_other && !(number && is_of_a_part(*number));
+  if (!number) return true;
+  const std::string listed = face::ibug(*number);
+  if (name != listed && motion.index_of(listed) >= 0) return false;
+  const bool is_short = face::full_name(name) != name;  // the parts look for full names alone
+  return is_short || !is_of_a_part(*number);
 }
 
 /// "cheek_L (cheek, left; 5.1 mm)", "my_mark (3.0 mm)" and "and 9 more": first those away from the

@@ -7,7 +7,6 @@
 #include <algorithm>
 
 #include "hyperex/core/add_rest.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 
 namespace hyperex::session {
@@ -43,7 +42,7 @@ std::string first_held(const motion::Motion& m, const std::vector<motion::HeldRe
 /// goes 10 to 20 mm in a smile and as much downwards with the jaw. Points whose part is not known
 /// have the bound of the mandible.
 double reach_m(const std::string& point) {
-  const auto k = face::ibug_number_of_place(face::full_name(point));
+  const auto k = face::ibug_number_of_place(point);
   constexpr double mandible = 0.075, corner = 0.038, upper_lip = 0.03, brow = 0.025, nose = 0.02;
   if (!k || (*k >= 3 && *k <= 13)) return mandible;
   if (*k <= 16) return upper_lip;  // before the ears, beside the condyles

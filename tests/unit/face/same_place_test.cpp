@@ -29,8 +29,16 @@ TEST(SamePlace, ThatIsNotGivenOrNotFiniteIsNone) {
 TEST(SamePlace, HasOneName) {
   for (const char* name : {"36", "p36", "ibug68_36", "exocanthion_R"})
     EXPECT_EQ(place_name(name), "ibug68_36") << name;
-  for (const char* name : {"pogonion", "head_1", "360", "p", "", "ibug68_99"})
+  for (const char* name : {"pogonion", "head_1", "360", "p", "", "ibug68_99", "99", "p68"})
     EXPECT_EQ(place_name(name), name);
+}
+
+TEST(SamePlace, HasANumber) {
+  for (const char* name : {"48", "p48", "ibug68_48", "cheilion_R"})
+    EXPECT_EQ(ibug_number_of_place(name), 48) << name;
+  EXPECT_EQ(ibug_number_of_place("08"), 8);
+  for (const char* name : {"pogonion", "head_1", "480", "p", "", "ibug68_99", "99", "p68"})
+    EXPECT_FALSE(ibug_number_of_place(name)) << name;
 }
 
 }  // namespace

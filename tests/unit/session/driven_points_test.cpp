@@ -7,7 +7,9 @@
 
 namespace hyperex::session {
 namespace {
+using testing::AllOf;
 using testing::Contains;
+using testing::HasSubstr;
 using testing::Not;
 
 /// All 68 points, `stomion` and a point of the skull, in two samples. They are 10 mm apart.
@@ -105,6 +107,18 @@ TEST(DrivenPoints, WhatElseMovesIsSaidAwayFromTheLipsFirst) {
             "brows; 2.1 mm); "
             "drive.points selects the driven points");
   EXPECT_EQ(not_driven(scene, with_moving({{"cheek_L", 1.9}})), "") << "as noise does";
+}
+
+TEST(DrivenPoints, ShortNamesAreNamedOnceAndThoseOfTheLipsLast) {
+  const scene::Scene scene;
+  motion::Motion m = with_moving({{"ibug68_3", 5}, {"ibug68_62", 9}});
+  m.names[3] = "3";
+  m.names[62] = "p62";
+  EXPECT_THAT(not_driven(scene, m), AllOf(HasSubstr("3 (5.0 mm), "), HasSubstr("p62 (9.0 mm);")))
+      << "no part of the face looks for a short name";
+  EXPECT_LT(not_driven(scene, m).find("3 (5.0 mm)"), not_driven(scene, m).find("p62 ("));
+  EXPECT_EQ(not_driven(scene, with_moving({{"ibug68_62", 3}, {"62", 3}})),
+            not_driven(scene, with_moving({{"ibug68_62", 3}})));
 }
 
 TEST(DrivenPoints, WhatMovesAfterTheEndOfTheRunIsNotSaid) {
