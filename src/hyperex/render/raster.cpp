@@ -81,6 +81,13 @@ Raster::Raster(const std::vector<Surface>& surfaces, const Camera& camera, int w
     : width_(width), height_(height), band_rows_(band_rows), m_per_sample_(m_per_sample) {
   HX_ASSERT(width <= most_samples && height <= most_samples);
   std::vector<Triangle> seen;
+  std::size_t corners = 0, triangles = 0;
+  for (const Surface& surface : surfaces) {
+    corners += std::size_t(surface.mesh.points.rows());
+    triangles += std::size_t(surface.mesh.triangles.rows());
+  }
+  corners_.reserve(corners);  // for all at once: a reserve for each would copy the earlier ones
+  seen.reserve(triangles);
   for (std::size_t s = 0; s < surfaces.size(); ++s)
     add(surfaces[s], int(s), camera, m_per_sample, seen);
   sort_into_bands(seen);
@@ -90,14 +97,12 @@ void Raster::add(const Surface& surface, int index, const Camera& camera, double
                  std::vector<Triangle>& seen) {
   const Eigen::Matrix3d camera_from_world = camera.axes();
   const auto first = int(corners_.size());
-  corners_.reserve(corners_.size() + std::size_t(surface.mesh.points.rows()));
   for (Eigen::Index v = 0; v < surface.mesh.points.rows(); ++v) {
     const Vec3 world = surface.mesh.points.row(v).transpose();
     const Vec3 local = camera_from_world * (world - camera.target);
     corners_.push_back({on_grid(local[0] / m_per_sample + width_ / 2.0 - 0.5),
                         on_grid(height_ / 2.0 - 0.5 - local[1] / m_per_sample), local[2]});
   }
-  seen.reserve(seen.size() + std::size_t(surface.mesh.triangles.rows()));
   for (Eigen::Index f = 0; f < surface.mesh.triangles.rows(); ++f) {
     const auto at = [&](int k) { return first + surface.mesh.triangles(f, k); };
     Triangle t{{at(0), at(1), at(2)}, index, int(f), {}};

@@ -120,6 +120,22 @@ TEST(Raster, OfTwoEquallyNearTheFirstIsSeen) {
     EXPECT_LT(hit.surface, 1);
 }
 
+TEST(Raster, TrianglesAsSurfacesOfTheirOwnAreSeenAsThoseOfOneSurface) {
+  const TriMesh whole = loose_triangles(300);
+  std::vector<TriMesh> parts;
+  for (Eigen::Index f = 0; f < whole.triangles.rows(); ++f) {
+    parts.push_back({whole.points.middleRows(3 * f, 3), Triangles(1, 3)});
+    parts.back().triangles << 0, 1, 2;
+  }
+  std::vector<Surface> surfaces;
+  for (const TriMesh& part : parts) surfaces.push_back({.mesh = part});
+  const auto expected =
+      all_hits(Raster({{.mesh = whole}}, oblique, kSize, kSize, kMetresPerSample, 16));
+  const auto hits = all_hits(Raster(surfaces, oblique, kSize, kSize, kMetresPerSample, 16));
+  ASSERT_EQ(hits.size(), expected.size());
+  for (std::size_t i = 0; i < hits.size(); ++i) EXPECT_EQ(hits[i].surface, expected[i].triangle);
+}
+
 TEST(Raster, LeavesOutWhatIsNotFiniteOrSeenFromItsEdge) {
   TriMesh mesh = sheet(2);
   mesh.points(4, 2) = std::numeric_limits<double>::quiet_NaN();  // the middle one
