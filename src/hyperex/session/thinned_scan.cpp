@@ -3,6 +3,7 @@
 
 #include <limits>
 
+#include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/report/skin_view.hpp"
 #include "hyperex/simulate/performance.hpp"
 
@@ -57,15 +58,17 @@ class CornerUv {
 
 std::vector<char> on_seams(const io::Scan& scan) {
   if (!is_textured(scan)) return {};
-  const Index vertices = scan.mesh.points.rows();
-  std::vector<Index> first(std::size_t(vertices), -1);
-  std::vector<char> seam(std::size_t(vertices), 0);
+  // Files repeat the vertices of a seam, some repeat every vertex for each of its triangles.
+  const std::vector<int> place = first_at_same_place(scan.mesh.points);
+  std::vector<Index> first_corner(place.size(), -1);
+  std::vector<char> seam(place.size(), 0);
   for (Index f = 0; f < scan.mesh.triangles.rows(); ++f)
     for (int k = 0; k < 3; ++k) {
-      const auto v = std::size_t(scan.mesh.triangles(f, k));
-      if (first[v] < 0) first[v] = 3 * f + k;
-      if (scan.corner_uv.row(first[v]) != scan.corner_uv.row(3 * f + k)) seam[v] = 1;
+      const auto v = std::size_t(place[std::size_t(scan.mesh.triangles(f, k))]);
+      if (first_corner[v] < 0) first_corner[v] = 3 * f + k;
+      if (scan.corner_uv.row(first_corner[v]) != scan.corner_uv.row(3 * f + k)) seam[v] = 1;
     }
+  for (std::size_t v = 0; v < place.size(); ++v) seam[v] = seam[std::size_t(place[v])];
   return seam;
 }
 

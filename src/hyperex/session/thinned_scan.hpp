@@ -8,7 +8,8 @@
 
 namespace hyperex::session {
 
-/// Per vertex: the texture has a seam there, so that thinning keeps it. Empty without a texture.
+/// Per vertex: the texture has a seam there, so that thinning keeps it. Vertices at exactly the
+/// same place count as one. Empty without a texture.
 std::vector<char> on_seams(const io::Scan& scan);
 
 /// The scan with the vertices of the thinned skin, their colours, and texture coordinates in the
