@@ -140,12 +140,23 @@ test('the change is that of the distance, with its own band; what it hides is a 
   const { change, line, below } = await dragged({ right: 4.1, along: 1.5 });
   assert.equal(change, 'right moves 2.6 mm less than in base (± 0.7 mm); in the unchanged direction 5.2 mm less');
   assert.equal(line, 'right corner 4.1 mm, moves 2.6 mm less than in base (± 0.7 mm); in the unchanged direction 5.2 mm less');
-  assert.match(below, /The unchanged direction is where the corner goes in base; .+ That figure has no ±\./);
+  assert.match(below, /The unchanged direction is where the corner goes in base; .+, not in it\./);
   assert.equal((await dragged({ right: 7.0, along: 3.5 })).change,
     'right is dragged 0.3 mm farther than in base: undecided (below 0.7 mm); in the unchanged direction 3.2 mm less');
   assert.equal((await dragged({ right: 5.9, along: -4.2 })).change, 'right moves 0.8 mm less than in base (± 0.7 mm); 4.2 mm against the unchanged direction');
   assert.equal((await dragged({ right: 6.75, along: 2.7 })).change, 'right goes as far as in base; in the unchanged direction 4.0 mm less');
   assert.doesNotMatch((await dragged({ right: 4.1 })).below, /direction/);
+});
+
+test('the figure in the unchanged direction has a band of its own', async () => {
+  const more = { commissure_R_along_base_band_mm: 0.84, commissure_R_along_base_decided: 1 };
+  assert.equal((await dragged({ right: 4.1, along: 1.5, more })).change,
+    'right moves 2.6 mm less than in base (± 0.7 mm); in the unchanged direction 5.2 ± 0.8 mm less');
+  assert.equal((await dragged({ right: 5.9, along: -4.2, more })).change,
+    'right moves 0.8 mm less than in base (± 0.7 mm); 4.2 mm against the unchanged direction, 10.9 ± 0.8 mm less');
+  assert.match((await dragged({ right: 4.1, along: 6.2, more })).change, /; in the unchanged direction undecided: 0\.5 ± 0\.8 mm less$/);
+  const unknown = { jitter_known: false, commissure_R_band_mm: null, commissure_L_band_mm: null, commissure_R_along_base_band_mm: null };
+  assert.match((await dragged({ right: 4.1, along: 1.5, more: unknown })).change, /; in the unchanged direction 5\.2 mm less, cannot tell$/);
 });
 
 test('what still moves a side of which no muscle pulls', async () => {

@@ -101,6 +101,10 @@ struct Commissure {
   std::vector<double> left_mm, right_mm;      ///< distance from rest, smoothed, per sample
   std::vector<double> left_mm_s, right_mm_s;  ///< speed
   double left_from_midlip_mm = 0, right_from_midlip_mm = 0;  ///< see Excursions::commissure
+  /// The places of each corner's counterpart in the mirrored twin of the run (mesh_floor.hpp),
+  /// smoothed, N x 3, mm. The counterpart carries out the motion of this side there. Empty without
+  /// a twin.
+  Points twin_left_track_mm, twin_right_track_mm;
 };
 
 struct Excursions {

@@ -6,6 +6,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "hyperex/metrics/lowpass.hpp"
+
 namespace hyperex::metrics {
 namespace {
 
@@ -74,6 +76,13 @@ void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const mot
     pair.twin_right_mm = greatest_mm(smooth_distance_mm(twin, pair.left, lowpass_hz));
     pair.judge();
   }
+  Commissure& mouth = excursions.commissure;
+  if (mouth.left < 0 || mouth.right < 0) return;
+  const auto track_mm = [&](int column) {
+    return lowpassed(twin.time_s, 1e3 * track_of(twin, column), excursions.lowpass_hz).value;
+  };
+  mouth.twin_left_track_mm = track_mm(mouth.right);
+  mouth.twin_right_track_mm = track_mm(mouth.left);
 }
 
 double added_mesh_floor(const SymmetryCurve& variant, const SymmetryCurve& base) {
@@ -96,8 +105,13 @@ ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Si
   const auto of_twin = [&](const PairExcursion& pair) {
     return left ? pair.twin_left_mm : pair.twin_right_mm;
   };
-  ExcursionChange change{excursion(from), excursion(to)};
-  const double mesh_mm = change.change_mm() - (of_twin(to) - of_twin(from));
+  return banded_change(excursion(from), excursion(to), of_twin(to) - of_twin(from), from, to);
+}
+
+ExcursionChange banded_change(double from_mm, double to_mm, double twin_change_mm,
+                              const PairExcursion& from, const PairExcursion& to) {
+  ExcursionChange change{from_mm, to_mm};
+  const double mesh_mm = change.change_mm() - twin_change_mm;
   const double scaled = change.from_mm > 0 ? std::abs(change.to_mm / change.from_mm - 1) : 0;
   const double jitter_mm = from.jitter_floor_mm / std::sqrt(2.0) * scaled;
   change.known_band_mm = std::hypot(mesh_mm, jitter_mm) + 1e3 * kResolution_m;

@@ -41,7 +41,7 @@ double excursion_mesh_floor_mm(const motion::Motion& run, const motion::Motion& 
 void add_mesh_floor(SymmetryCurve& curve, Excursions& excursions, const motion::Motion& run,
                     const motion::Motion& twin);
 
-/// The same for the pairs only.
+/// The same for the pairs only, and the twin's tracks of the corners of the mouth.
 void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const motion::Motion& twin);
 
 /// The floor of the change of xi_L - xi_R between base and variant: the maximum over time of sum
@@ -74,5 +74,10 @@ struct ExcursionChange {
 };
 /// The change for one pair of points in two runs. add_mesh_floor() must have been applied to both.
 ExcursionChange change_of(const PairExcursion& from, const PairExcursion& to, Side side);
+
+/// A change of one side from `from_mm` to `to_mm`, with its band. `twin_change_mm`: the same change
+/// of the twins, to' - from'. `from`, `to`: the pair of points in both runs, for the jitter.
+ExcursionChange banded_change(double from_mm, double to_mm, double twin_change_mm,
+                              const PairExcursion& from, const PairExcursion& to);
 
 }  // namespace hyperex::metrics

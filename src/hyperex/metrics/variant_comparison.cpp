@@ -104,7 +104,8 @@ void measure_farthest(const simulate::Performance& own, const simulate::Performa
 }
 
 void measure_commissures(const ComparedRun& base, const ComparedRun& run, VariantComparison& c) {
-  c.commissure_left = c.commissure_right = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
+  c.commissure_left = c.commissure_right = c.left_along_base =
+      c.right_along_base = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
   const Excursions& before = base.symmetry.excursions;
   const Excursions& excursions = run.symmetry.excursions;
   for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
@@ -120,8 +121,15 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
       c.left_from_base = distance_from_base(own, run_own, left);
       const int right = excursions.pairs[i].right;
       c.right_from_base = distance_from_base(own, run_own, right);
-      c.left_along_base_mm = along_base_mm(own, run_own, left);
-      c.right_along_base_mm = along_base_mm(own, run_own, right);
+      const auto along = [&](int column, Points Commissure::*twin) {
+        const Points &twin_base = before.commissure.*twin, &twin_run = excursions.commissure.*twin;
+        return banded_change(
+            along_base_mm(own, own, column), along_base_mm(own, run_own, column),
+            along_base_mm(twin_base, twin_run) - along_base_mm(twin_base, twin_base),
+            before.pairs.at(i), excursions.pairs[i]);
+      };
+      c.left_along_base = along(left, &Commissure::twin_left_track_mm);
+      c.right_along_base = along(right, &Commissure::twin_right_track_mm);
     }
 }
 
@@ -178,20 +186,22 @@ DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Mo
 }
 
 double along_base_mm(const motion::Motion& base, const motion::Motion& run, int column) {
-  constexpr double least_mm = 0.1;
   if (column < 0 || column >= int(base.names.size())) return std::nan("");
-  Vec3 way = Vec3::Zero();
-  for (const Points& sample : base.positions)
-    if (const Vec3 d = (sample.row(column) - base.positions[0].row(column)).transpose();
-        d.norm() > way.norm())
-      way = d;
-  if (!(1e3 * way.norm() >= least_mm)) return std::nan("");
+  return along_base_mm(1e3 * track_of(base, column), 1e3 * track_of(run, column));
+}
+
+double along_base_mm(const Points& base_mm, const Points& run_mm) {
+  constexpr double least_mm = 0.1;
+  if (base_mm.rows() == 0 || run_mm.rows() == 0) return std::nan("");
+  Eigen::RowVector3d way = Eigen::RowVector3d::Zero();
+  for (const auto at : base_mm.rowwise())
+    if (const Eigen::RowVector3d d = at - base_mm.row(0); d.norm() > way.norm()) way = d;
+  if (!(way.norm() >= least_mm)) return std::nan("");
   double most = 0;
-  for (const Points& sample : run.positions) {
-    const double along =
-        1e3 * (sample.row(column) - run.positions[0].row(column)).dot(way.normalized());
-    if (std::abs(along) > std::abs(most)) most = along;
-  }
+  for (const auto at : run_mm.rowwise())
+    if (const double along = (at - run_mm.row(0)).dot(way.normalized());
+        std::abs(along) > std::abs(most))
+      most = along;
   return most;
 }
 

@@ -52,6 +52,8 @@ DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Mo
 /// rest has no direction: a weak mouth corner that the other side pulls across may be as far from
 /// rest as before. NaN if the point is unknown or if its displacement in base is below 0.1 mm.
 double along_base_mm(const motion::Motion& base, const motion::Motion& run, int column);
+/// The same of two tracks of one point, N x 3, mm; NaN where they are empty.
+double along_base_mm(const Points& base_mm, const Points& run_mm);
 
 /// Comparison of a run with base. "Peak" is the peak of base.
 struct VariantComparison {
@@ -71,9 +73,10 @@ struct VariantComparison {
   /// Excursions of the corners of the mouth; NaN if these are unknown.
   ExcursionChange commissure_left, commissure_right;
   DistanceFromBase left_from_base, right_from_base;  ///< for the same corners
-  /// along_base_mm() of the same corners.
-  double left_along_base_mm = std::numeric_limits<double>::quiet_NaN();
-  double right_along_base_mm = std::numeric_limits<double>::quiet_NaN();
+  /// along_base_mm() of the same corners in base and in this run. The band has the parts of
+  /// ExcursionChange: the twins' motion along their own direction in base, and the jitter that a
+  /// changed face scales. Jitter across the direction turns both runs alike, to first order.
+  ExcursionChange left_along_base, right_along_base;
   double asymmetry_mm = 0;  ///< at the peak, root mean square over the face
   /// Greatest change of xi_L - xi_R relative to base, with its sign.
   double added_xi_difference = 0;

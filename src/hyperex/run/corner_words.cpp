@@ -44,6 +44,7 @@ struct CornerChange {
   double decided;     ///< whether the change from rest exceeds its band, 1 or 0
   bool jitter_known;  ///< else the band is not
   double along_mm;    ///< in the unchanged direction
+  double along_band_mm, along_decided;
   double far_mm, far_s;
   bool weaker;  ///< some muscle of that side pulls less than in base
 };
@@ -63,19 +64,29 @@ std::string path_clause(const CornerChange& c, double by_mm) {
                      c.far_mm, c.far_s);
 }
 
+/// The change in the unchanged direction with its own band: "5.9 mm less (+- 0.8)".
+std::string along_words(const CornerChange& c) {
+  const double by = rounded_mm(c.along_mm) - rounded_mm(c.from_mm), exact = c.along_mm - c.from_mm;
+  if (std::abs(by) < kSame_mm || std::abs(exact) < kSame_mm) return "unchanged";
+  const bool known = !std::isnan(c.along_band_mm);
+  const HeldAgainst held = held_against(by, exact, known ? c.along_band_mm : 0);
+  const bool undecided = std::abs(exact) < c.along_band_mm || c.along_decided == 0;
+  return fmt::format("{}{} mm {}{}{}", undecided ? "undecided: " : "", held.own,
+                     by < 0 ? "less" : "more", known ? fmt::format(" (+- {})", held.limit) : "",
+                     undecided || c.jitter_known ? "" : " (cannot tell)");
+}
+
 /// Where the corner turns aside, its distance from rest hides how much less it goes where it went:
-/// ", in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less".
+/// ", in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8)".
 std::string direction_clause(const CornerChange& c) {
   if (std::isnan(c.along_mm)) return "";
   const bool same_way = std::abs(c.to_mm - c.along_mm) <= std::max(0.25, 0.1 * c.to_mm);
   if (same_way) return "";
   const double from = rounded_mm(c.from_mm), along = rounded_mm(c.along_mm);
-  if (along < 0) return fmt::format(", {:.1f} mm against the unchanged direction", -along);
-  const double by = along - from;
-  const std::string how = std::abs(by) < kSame_mm
-                              ? "unchanged"
-                              : fmt::format("{:.1f} mm {}", std::abs(by), by < 0 ? "less" : "more");
-  return fmt::format(", in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along, how);
+  if (along < 0)
+    return fmt::format(", {:.1f} mm against the unchanged direction, {}", -along, along_words(c));
+  return fmt::format(", in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along,
+                     along_words(c));
 }
 
 /// The change of the distance from rest with its own band, then what that distance hides.
@@ -129,6 +140,8 @@ std::string side_words(const Json& base, const Json& variant, const std::string&
                        number(variant, "_decided"),
                        variant.value("jitter_known", true),
                        number(variant, "_along_base_mm"),
+                       number(variant, "_along_base_band_mm"),
+                       number(variant, "_along_base_decided"),
                        number(variant, "_from_base_mm"),
                        number(variant, "_from_base_s"),
                        std::find(weaker.begin(), weaker.end(), Json(side)) != weaker.end()};
@@ -177,10 +190,10 @@ std::string variant_lines(const Json& summary) {
   const bool aside = lines.find("unchanged direction") != std::string::npos;
   return lines +
          "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: "
-         "what one other mesh and 95 % of the recording's jitter could make of the change of that "
-         "distance; --error-budget states all that could)\n" +
+         "what one other mesh and 95 % of the recording's jitter could make of the change before "
+         "it; --error-budget states all that could)\n" +
          (aside ? "  (the unchanged direction: where the corner goes without the change; motion "
-                  "aside of it counts in the distance, not in it; it has no +-)\n"
+                  "aside of it counts in the distance, not in it)\n"
                 : "");
 }
 

@@ -25,8 +25,9 @@ std::string rescaled_line(const nlohmann::ordered_json& summary);
 /// corner of the mouth right 9.6 to 6.2 mm, moves 3.4 mm less (+- 0.3); left 10.1 mm, unchanged".
 /// Compared are greatest distances from rest, as in variants_excursions.csv, with their band. A
 /// corner that turns aside has a second clause with its component in the unchanged direction, that
-/// of its displacement in base: ", in the unchanged direction 9.6 to 4.1 mm, 5.5 mm less". A line
-/// of its own says why a corner still moves where a variant lets no muscle of its side pull.
+/// of its displacement in base: ", in the unchanged direction 9.6 to 4.1 mm, 5.5 mm less (+- 0.4)",
+/// with the band of that change. A line of its own says why a corner still moves where a variant
+/// lets no muscle of its side pull.
 std::string variant_lines(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

@@ -175,5 +175,17 @@ TEST(MeshFloor, KeepsTheTwinsExcursionsForTheSideThatTheyAreTheMirrorImageOf) {
   EXPECT_GT(moved, 0);
 }
 
+TEST(MeshFloor, KeepsTheTwinsTracksOfTheCornersForTheOtherSide) {
+  const auto run = ten_points([](auto& n) { return Vec3(smile_of(n)); });
+  const auto twin =
+      ten_points([](auto& n) { return Vec3((n.ends_with("_R") ? 1.5 : 1.0) * smile_of(n)); });
+  Excursions excursions = excursions_of(run);
+  EXPECT_EQ(excursions.commissure.twin_left_track_mm.rows(), 0);
+  add_mesh_floor(excursions, run, twin);
+  const auto way_mm = [](const Points& track) { return (track.row(2) - track.row(0)).norm(); };
+  EXPECT_NEAR(way_mm(excursions.commissure.twin_left_track_mm), 15, 1e-9);
+  EXPECT_NEAR(way_mm(excursions.commissure.twin_right_track_mm), 10, 1e-9);
+}
+
 }  // namespace
 }  // namespace hyperex::metrics

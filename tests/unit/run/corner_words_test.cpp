@@ -73,6 +73,34 @@ TEST(CornerWords, ACornerThatTurnsAsideHasASecondFigureInTheUnchangedDirection) 
               Not(HasSubstr("unchanged direction")));
 }
 
+/// The right corner goes from 10.12 to 6.68 mm, and to `along_mm` in the unchanged direction.
+Json with_along_band(double along_mm, const Json& band_mm, const Json& decided) {
+  Json summary = summary_of({10.12, 6.68, along_mm, 0.69}, same, {"R"});
+  Json& changed = summary["variants"]["table"][1];
+  changed["commissure_R_along_base_band_mm"] = band_mm;
+  changed["commissure_R_along_base_decided"] = decided;
+  return summary;
+}
+
+TEST(CornerWords, TheFigureInTheUnchangedDirectionHasABandOfItsOwn) {
+  EXPECT_THAT(
+      variant_lines(with_along_band(4.24, 0.82, 1)),
+      HasSubstr("(+- 0.7), in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8); "
+                "left"));
+  EXPECT_THAT(variant_lines(with_along_band(-2.1, 0.82, 1)),
+              HasSubstr(", 2.1 mm against the unchanged direction, 12.2 mm less (+- 0.8); left"));
+  EXPECT_THAT(variant_lines(with_along_band(9.7, 0.82, 0)),
+              HasSubstr("10.1 to 9.7 mm, undecided: 0.4 mm less (+- 0.8); left"));
+}
+
+TEST(CornerWords, TheFigureInTheUnchangedDirectionIsNotDecidedWhereTheJitterIsNotKnown) {
+  Json summary = with_along_band(4.24, nullptr, nullptr);
+  summary["variants"]["table"][1]["jitter_known"] = false;
+  EXPECT_THAT(variant_lines(summary), HasSubstr("5.9 mm less (cannot tell); left"));
+  summary["variants"]["table"][1]["commissure_R_along_base_decided"] = 0;
+  EXPECT_THAT(variant_lines(summary), HasSubstr("undecided: 5.9 mm less; left"));
+}
+
 TEST(CornerWords, SaysOneSecondFigureAtMost) {
   Json summary = summary_of({9.72, 7.53, 6.72, 0.96}, same, {"R"});
   Json& changed = summary["variants"]["table"][1];

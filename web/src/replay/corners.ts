@@ -98,6 +98,14 @@ export function changeBandMm(replay: Replay, face: number, side: Side): number |
   return isNumber(band) ? band : null;
 }
 
+/** A change held against its band in the row of a variant; `name` stands before _band_mm and _decided there. */
+function judged(row: VariantRow | undefined, name: string, exactMm: number): CornerChange['along'] {
+  const band = row?.[`${name}_band_mm`];
+  const bandMm = isNumber(band) ? band : null;
+  const undecided = bandMm === null ? row?.[`${name}_decided`] === 0 : Math.abs(exactMm) < bandMm;
+  return { exactMm, bandMm, undecided, cannotTell: bandMm === null && !undecided && row?.jitter_known === false };
+}
+
 /** The effect of a variant on a corner of the mouth. */
 export interface CornerChange {
   side: Side;
@@ -108,8 +116,10 @@ export interface CornerChange {
   byMm: number;
   /** The same, not rounded: what `undecided` compares with the band. */
   exactMm: number;
-  /** How far it moves in the unchanged direction, that of its displacement in base, signed. It has no band. */
+  /** How far it moves in the unchanged direction, that of its displacement in base, signed. */
   alongMm: number;
+  /** How much more that is than in base, not rounded, with a band of its own: as exactMm, bandMm, undecided and cannotTell. */
+  along: { exactMm: number; bandMm: number | null; undecided: boolean; cannotTell: boolean };
   /** It moves in that direction about as far as from rest, so that the figures above are complete. */
   sameWay: boolean;
   /** Some muscle of that side pulls less than in base. */
@@ -133,14 +143,12 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const [fromMm, toMm] = [roundedMm(from), roundedMm(to)];
   const unchanged = Math.abs(to - from) < sameMm;
   const byMm = unchanged ? 0 : roundedMm(toMm - fromMm);
-  const bandMm = changeBandMm(replay, face, side);
   const weak = row?.weaker_sides;
-  const undecided = bandMm === null ? row?.[`commissure_${letterOf[side]}_decided`] === 0 : Math.abs(to - from) < bandMm;
+  const corner = `commissure_${letterOf[side]}`;
   return {
-    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, exactMm: to - from, alongMm: roundedMm(alongMm), sameWay, bandMm,
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, ...judged(row, corner, to - from), alongMm: roundedMm(alongMm), sameWay,
+    along: judged(row, `${corner}_along_base`, alongMm - from),
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
-    undecided,
-    cannotTell: bandMm === null && !undecided && jitterUnknown(replay, face),
   };
 }
 
@@ -164,18 +172,26 @@ export function changeSentence({ byMm, exactMm, bandMm, sameWay, weaker }: Corne
 /** How much less, or more, it moves in the unchanged direction, where it turns aside; else 0, mm. */
 export const asideMm = ({ fromMm, alongMm, sameWay }: CornerChange): number => (sameWay ? 0 : roundedMm(alongMm - fromMm));
 
-/** "in the unchanged direction 5.9 mm less", where the corner turns aside; else empty. */
-export function directionWords(change: CornerChange): string {
-  const { alongMm, sameWay } = change;
-  if (sameWay) return '';
-  if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction`;
+/** "5.9 ± 0.8 mm less", "undecided: 0.4 ± 0.8 mm less": the change in the unchanged direction with its band. */
+function alongWords(change: CornerChange): string {
+  const { exactMm, bandMm, undecided, cannotTell } = change.along;
   const by = asideMm(change);
-  return `in the unchanged direction ${by === 0 ? 'as far as there' : `${mm(Math.abs(by))} ${by < 0 ? 'less' : 'more'}`}`;
+  const { own, limit } = heldAgainst(by, exactMm, bandMm ?? 0);
+  const figure = bandMm === null ? mm(Math.abs(by)) : `${own.replace(' mm', '')} ± ${limit}`;
+  return `${undecided ? 'undecided: ' : ''}${figure} ${by < 0 ? 'less' : 'more'}${cannotTell ? ', cannot tell' : ''}`;
+}
+
+/** "in the unchanged direction 5.9 ± 0.8 mm less", where the corner turns aside; else empty. */
+export function directionWords(change: CornerChange): string {
+  const { alongMm, sameWay, along: { bandMm } } = change;
+  if (sameWay) return '';
+  if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction${bandMm === null ? '' : `, ${alongWords(change)}`}`;
+  return `in the unchanged direction ${asideMm(change) === 0 ? 'as far as there' : alongWords(change)}`;
 }
 
 /** What that direction is, for readers. */
 export const directionMeaning =
-  'The unchanged direction is where the corner goes in base; motion aside of it counts in the distance from rest, not in it. That figure has no ±.';
+  'The unchanged direction is where the corner goes in base; motion aside of it counts in the distance from rest, not in it.';
 
 /** The error of a change as it is shown beside it, "0.6 mm"; empty where it is not known. */
 export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
