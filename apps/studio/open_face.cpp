@@ -7,6 +7,7 @@
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/run/report_page.hpp"
 #include "hyperex/run/variants.hpp"
+#include "hyperex/scene/scene_text.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/remarks_json.hpp"
 #include "hyperex/session/same_face.hpp"
@@ -21,8 +22,8 @@ using nlohmann::json;
 namespace {
 
 scene::Scene scene_of(const std::string& text, const std::filesystem::path& file,
-                      const KeptResults& kept) {
-  scene::Scene scene = scene::read_scene_text(text, file);
+                      const KeptResults& kept, std::vector<scene::LeftOutVariant>* left_out) {
+  scene::Scene scene = scene::read_scene_text(text, file, left_out);
   scene.kept = kept;
   return scene;
 }
@@ -43,10 +44,20 @@ json values_of(const scene::Scene& scene) {
 }
 
 OpenFace::OpenFace(std::string text, std::filesystem::path file, KeptResults kept,
-                   const Stage& stage)
+                   const Stage& stage, std::vector<scene::LeftOutVariant>* left_out)
     : text_(std::move(text)),
-      session_(scene_of(text_, file, kept),
-               {.certainty = session::Certainty::on_request, .stage = stage}) {}
+      session_(scene_of(text_, file, kept, left_out), {.certainty = session::Certainty::on_request,
+                                                       .stage = stage,
+                                                       .leave_out_variants = left_out != nullptr}) {
+  if (!left_out) return;
+  left_out->insert(left_out->end(), session_.left_out().begin(), session_.left_out().end());
+  if (left_out->empty()) return;
+  std::ranges::sort(*left_out, {}, &scene::LeftOutVariant::number);
+  const std::vector<json> all = scene::variant_blocks(text_);
+  std::vector<json> sound;
+  for (const scene::Variant& variant : scene().variants) sound.push_back(all[variant.number]);
+  set_text(scene::with_variants(text_, sound));
+}
 
 bool OpenFace::set_text(const std::string& text) {
   if (!session_.set_scene(scene::read_scene_text(text, scene().file))) return false;

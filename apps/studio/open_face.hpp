@@ -22,8 +22,10 @@ class OpenFace {
   using Stage = std::function<void(const std::string&)>;  ///< called as each stage begins
 
   /// Reads and meshes; simulates nothing yet. `file`: the place of the scene's text. Relative paths
-  /// are relative to its folder, and messages name it. Throws InputError.
-  OpenFace(std::string text, std::filesystem::path file, KeptResults kept, const Stage& stage);
+  /// are relative to its folder, and messages name it. With `left_out`, variants that cannot be run
+  /// are missing in text() and are added there. Throws InputError.
+  OpenFace(std::string text, std::filesystem::path file, KeptResults kept, const Stage& stage,
+           std::vector<scene::LeftOutVariant>* left_out = nullptr);
 
   const std::string& text() const { return text_; }
   session::FaceSession& session() { return session_; }

@@ -12,18 +12,6 @@
 
 namespace hyperex::studio {
 
-namespace {
-
-/// Removes the paths of the session's own folders, which mean nothing to the user.
-std::string without_folder(std::string text, const fs::path& folder) {
-  for (const std::string& path : {(folder / "uploads").string() + "/", folder.string() + "/"})
-    for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
-      text.erase(at, path.size());
-  return text;
-}
-
-}  // namespace
-
 Session::Session(SessionOptions options, Send send)
     : options_(std::move(options)), send_(std::move(send)) {}
 
@@ -69,7 +57,7 @@ void Session::answer(const Request& request) {
     out = {{"error", fmt::format("line {}: no sound TOML: {}", torn.line, torn.why)}};
   } catch (const std::exception& error) {
     report_progress("");
-    out = {{"error", without_folder(error.what(), options_.folder)}};
+    out = {{"error", without_folder(error.what())}};
   }
   // These requests may have released faces, which use most of the session's memory.
   constexpr std::string_view kShrink[] = {"open", "undo", "redo", "remove_variant"};
@@ -115,7 +103,7 @@ void Session::run_motion(const std::function<bool()>& cancelled) {
     return;
   } catch (const std::exception& error) {
     motion_due_ = false;
-    log("error", without_folder(error.what(), options_.folder));
+    log("error", without_folder(error.what()));
   }
   report_progress("");
 }
@@ -140,8 +128,7 @@ void Session::find_bands(const std::function<bool()>& cancelled) {
   } catch (const simulate::Cancelled&) {
   } catch (const std::exception& error) {
     bands_due_ = false;
-    log("warning",
-        fmt::format("no error bands: {}", without_folder(error.what(), options_.folder)));
+    log("warning", fmt::format("no error bands: {}", without_folder(error.what())));
   }
 }
 
@@ -164,7 +151,7 @@ void Session::find_budget(const std::function<bool()>& cancelled) {
     return;
   } catch (const std::exception& error) {
     budget_due_ = false;
-    log("error", fmt::format("no error budget: {}", without_folder(error.what(), options_.folder)));
+    log("error", fmt::format("no error budget: {}", without_folder(error.what())));
   }
   report_progress("");
 }

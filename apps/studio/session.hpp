@@ -72,6 +72,12 @@ class Session {
     std::string text;
     std::filesystem::path file;
   };
+  /// The variants of the opened scene that cannot be run. They are in no Step, and in saved scenes.
+  struct LeftOut {
+    std::string with, without;  ///< the scene's text as it was opened, and without them
+    std::string variants;       ///< their texts; empty: none
+    std::vector<Note> notes;    ///< a warning for each
+  };
   // Handlers, in the order of protocol.json.
   nlohmann::json hello(const nlohmann::json& fields);
   nlohmann::json open(const nlohmann::json& fields);
@@ -107,8 +113,9 @@ class Session {
   // Opening (session_open.cpp).
   void open_text(const std::string& text, const std::filesystem::path& file);
   /// Reads and meshes a face and reports its warnings. Replaces the open face only if that
-  /// succeeds.
-  void make_face(const std::string& text, const std::filesystem::path& file);
+  /// succeeds. `left_out`: as OpenFace has it.
+  void make_face(const std::string& text, const std::filesystem::path& file,
+                 std::vector<scene::LeftOutVariant>* left_out = nullptr);
   /// A scene of a scan, moved by a recording, or by the built-in smile where there is none.
   std::string scan_scene(const std::filesystem::path& scan, const std::filesystem::path& recording);
   /// Writes the built-in smile beside the session's scene.
@@ -116,6 +123,17 @@ class Session {
   /// Whether to offer the work of a crashed session.
   bool offers_rescued() const;
   std::filesystem::path uploads() const { return options_.folder / "uploads"; }
+
+  // Variants that cannot be run (session_left_out.cpp).
+  /// Whether the variants are written as [[variant]], so that their texts can be kept apart.
+  static bool has_tables_of_variants(const std::string& text);
+  /// Those of the open face, of which `text` is the whole scene.
+  LeftOut left_out_of(const std::string& text,
+                      const std::vector<scene::LeftOutVariant>& variants) const;
+  /// The scene's text as it is saved: with the variants that were left out.
+  std::string text_to_save() const;
+  /// Says whether what was saved has them: the scene has, a run and its report have not.
+  void report_left_out(bool of_scene);
 
   // A CT (session_ct.cpp).
   /// Whether an upload is opened as a CT.
@@ -178,12 +196,15 @@ class Session {
   /// An empty stage means done; a negative share means unknown.
   void report_progress(const std::string& stage, double share = -1);
   void log(const char* level, const std::string& text);
+  /// Removes the paths of the session's own folders, which mean nothing to the user.
+  std::string without_folder(std::string text) const;
 
   SessionOptions options_;
   Send send_;
   std::unique_ptr<OpenFace> face_;
   Step now_;  ///< the last commit; face_ may be newer while a slider is dragged
   std::vector<Step> undo_, redo_;
+  LeftOut left_out_;
   std::optional<Step> earlier_;  ///< of the same face, with the recording before the present one
   bool face_sent_ = false, motion_due_ = false, variant_due_ = false, bands_due_ = false,
        budget_due_ = false, saved_ = true, keeps_rescued_ = true;

@@ -9,6 +9,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/scene_text.hpp"
+#include "hyperex/session/remarks_json.hpp"
 #include "hyperex/uncertainty/budget_outputs.hpp"
 #include "session.hpp"
 #include "shape_message.hpp"
@@ -33,6 +34,8 @@ void Session::send_motion(Stopwatch& watch) {
   report::BinaryBlock block;
   json head = {{"event", face_sent_ ? "motion" : "face"}};
   head["replay"] = face_->replay(block, !face_sent_);
+  for (const json more = session::remarks_json(left_out_.notes); const json& remark : more)
+    head["replay"]["summary"]["remarks"].push_back(remark);
   head["activations"] = face_->activations(block);
   if (face_sent_) {
     head["table"] = head["replay"]["summary"].contains("variants")
@@ -67,7 +70,7 @@ void Session::send_budget(const uncertainty::FaceBudget& budget) {
                       {"figures", known.at("corners_of_the_mouth")},
                       {"missing", known.at("missing")},
                       {"jitter_known", known.at("jitter_known")},
-                      {"text", now_.text}};
+                      {"text", text_to_save()}};
   send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "");
 }
 
@@ -93,7 +96,7 @@ void Session::send_scene() {
                       {"can_undo", !undo_.empty()},
                       {"can_redo", !redo_.empty()},
                       {"saved", saved_},
-                      {"text", now_.text}};
+                      {"text", text_to_save()}};
   send_(event.dump(-1, ' ', false, json::error_handler_t::replace), false, "scene");
 }
 
@@ -114,6 +117,14 @@ void Session::send_shape(std::size_t face, double time_s) {
 void Session::report_progress(const std::string& stage, double share) {
   const json event = {{"event", "progress"}, {"stage", stage}, {"share", share}};
   send_(event.dump(), false, "progress");
+}
+
+std::string Session::without_folder(std::string text) const {
+  const fs::path& folder = options_.folder;
+  for (const std::string& path : {(folder / "uploads").string() + "/", folder.string() + "/"})
+    for (auto at = text.find(path); at != std::string::npos; at = text.find(path, at))
+      text.erase(at, path.size());
+  return text;
 }
 
 void Session::log(const char* level, const std::string& text) {

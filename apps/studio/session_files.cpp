@@ -80,13 +80,14 @@ json Session::save(const json& fields) {
     io::write_landmarks(path, face_->inputs().landmarks, face_->inputs().scan.unit);
   }
   written_.push_back(path);
+  if (what != "landmarks") report_left_out(what == "scene");
   return {{"path", path}};
 }
 
 fs::path Session::save_scene_file(const std::string& name) {
   const fs::path file = require_own(options_.save_into / (name + ".toml"));
   const fs::path files = require_own(options_.save_into / (name + "_files"));
-  save_scene(now_.text, now_.file, {options_.folder, options_.rescued}, file);
+  save_scene(text_to_save(), now_.file, {options_.folder, options_.rescued}, file);
   written_.push_back(files);
   keeps_rescued_ = keeps_rescued_ && now_.file.parent_path() != options_.rescued;
   saved_ = true;
@@ -117,7 +118,7 @@ fs::path Session::save_report(const fs::path& file) {
 
 void Session::autosave() {
   try {
-    save_scene(now_.text, now_.file, {}, options_.folder / "scene.toml");
+    save_scene(text_to_save(), now_.file, {}, options_.folder / "scene.toml");
   } catch (const std::exception& error) {
     log("warning",
         fmt::format("the work is not autosaved, so a crash would lose it: {}", error.what()));

@@ -87,9 +87,11 @@ void Session::write_smile() const {
                         [](std::ostream& out) { out << embedded_smile(); });
 }
 
-void Session::make_face(const std::string& text, const fs::path& file) {
+void Session::make_face(const std::string& text, const fs::path& file,
+                        std::vector<scene::LeftOutVariant>* left_out) {
   auto made = std::make_unique<OpenFace>(
-      text, file, options_.kept, [this](const std::string& stage) { report_progress(stage); });
+      text, file, options_.kept, [this](const std::string& stage) { report_progress(stage); },
+      left_out);
   end_live();
   // The same skin on other tissue: the page needs only the motion.
   const bool same_skin = face_ && face_->same_skin(*made);
@@ -106,9 +108,12 @@ void Session::make_face(const std::string& text, const fs::path& file) {
 }
 
 void Session::open_text(const std::string& text, const fs::path& file) {
-  make_face(text, file);
+  std::vector<scene::LeftOutVariant> left_out;
+  make_face(text, file, has_tables_of_variants(text) ? &left_out : nullptr);
+  left_out_ = left_out_of(text, left_out);
+  for (const Note& note : left_out_.notes) log("warning", note.text);
   ct_.reset();
-  now_ = {text, file};
+  now_ = {face_->text(), file};
   undo_.clear();
   redo_.clear();
   earlier_.reset();

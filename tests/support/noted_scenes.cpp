@@ -325,6 +325,7 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
+      {"variant.left_out", "StudioSessionWithWrongVariants.OpensAllElseAndSaysWhatIsLeftOut"},
   };
   return all;
 }

@@ -151,6 +151,9 @@ constexpr NoteKind kKinds[] = {
     "A variant's lips pass through each other by more than 0.5 mm and farther than base's."),
   warning("variant.muscle_hardly_used", "muscles.gain",
     "The same of a variant."),
+  warning("variant.left_out", "variant",
+    "A variant of a scene that was opened in the studio cannot be run. The studio leaves it out; a "
+    "saved scene keeps it."),
 
   note("run.error_budget", "output.error_budget",
     "The 95 % interval of a corner of the mouth, or of what a variant changes there."),

@@ -228,8 +228,10 @@ namespace {
 /// The scene as far as it could be read, and all problems: those of the file by line, then those of
 /// the overrides. `text`: used instead of the file's content; null: the file is read.
 SceneReader read(const fs::path& file, const std::vector<Override>& overrides,
-                 const std::string* text = nullptr) {
+                 const std::string* text = nullptr,
+                 std::vector<LeftOutVariant>* left_out = nullptr) {
   SceneReader reader(file);
+  reader.left_out = left_out;
   if (text ? reader.take_text(*text) : reader.take_file()) {
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
@@ -261,8 +263,9 @@ Scene read_scene_with(const fs::path& file, const std::vector<Override>& overrid
   return std::move(reader.scene);
 }
 
-Scene read_scene_text(const std::string& text, const fs::path& file) {
-  SceneReader reader = read(file, {}, &text);
+Scene read_scene_text(const std::string& text, const fs::path& file,
+                      std::vector<LeftOutVariant>* left_out) {
+  SceneReader reader = read(file, {}, &text, left_out);
   if (!reader.problems.empty()) throw InputError(reader.problems);
   return std::move(reader.scene);
 }

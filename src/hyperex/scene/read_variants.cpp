@@ -95,8 +95,16 @@ void SceneReader::settle_variants() {
     complain(in_file("variant"), "variant", nullptr, "tables, [[variant]]");
     return;
   }
-  for (std::size_t i = 0; i < variants_.size(); ++i)
+  for (std::size_t i = 0; i < variants_.size(); ++i) {
+    const std::size_t sound = scene.variants.size(), wrong = problems.size();
     settle_variant(variants_[i], fmt::format("variant[{}]", i));
+    if (scene.variants.size() > sound) scene.variants.back().number = i;
+    if (!left_out || problems.size() == wrong) continue;
+    const std::vector<InputProblem> own(problems.begin() + std::ptrdiff_t(wrong), problems.end());
+    left_out->push_back({i, name_of_block(variants_[i]), InputError(own).what()});
+    problems.resize(wrong);
+    scene.variants.resize(sound);
+  }
 }
 
 }  // namespace hyperex::scene

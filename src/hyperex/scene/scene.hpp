@@ -389,6 +389,17 @@ struct Variant {
   std::string folder;      ///< of its outputs: the name, '_' for characters awkward in a path
   nlohmann::json changes;  ///< "tissue.young_kpa": 400, as given
   Scene scene;             ///< with the changes; its own variants are empty
+  std::size_t number = 0;  ///< among the [[variant]] of the file, from 0
+
+  /// Begins the names of its keys in messages: "variant[0].".
+  std::string owner() const { return "variant[" + std::to_string(number) + "]."; }
+};
+
+/// A [[variant]] that cannot be used, where the caller does without such ones.
+struct LeftOutVariant {
+  std::size_t number = 0;  ///< among the [[variant]] of the file, from 0
+  std::string name;        ///< as given; empty where there is none
+  std::string why;         ///< the sentences of an InputError, one per line
 };
 
 /// The sections whose keys a variant may change. A run repeats these steps for each variant.
@@ -400,8 +411,10 @@ const std::vector<std::string>& variant_sections();
 /// TOML, unknown keys, wrong types, values out of range, missing keys or files.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});
 
-/// The same, but reads `text` in place of the content of `file`, which need not exist.
-Scene read_scene_text(const std::string& text, const std::filesystem::path& file);
+/// The same, but reads `text` in place of the content of `file`, which need not exist. With
+/// `left_out`, a wrong [[variant]] throws nothing: it is missing in the scene and is added there.
+Scene read_scene_text(const std::string& text, const std::filesystem::path& file,
+                      std::vector<LeftOutVariant>* left_out = nullptr);
 
 /// The same problems, returned instead of thrown; empty for a valid scene.
 std::vector<InputProblem> problems_of(const std::filesystem::path& file,

@@ -44,6 +44,8 @@ class SceneReader {
 
   Scene scene;
   std::vector<InputProblem> problems;
+  /// Where given, variants with problems are left out: they and their problems go here.
+  std::vector<LeftOutVariant>* left_out = nullptr;
 
  private:
   void take_section(const std::string& name, const json& value);

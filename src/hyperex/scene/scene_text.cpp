@@ -230,6 +230,16 @@ std::vector<json> variant_blocks(const std::string& text) {
   return root["variant"].get<std::vector<json>>();
 }
 
+std::vector<std::string> variant_texts(const std::string& text) {
+  const std::vector<std::string> lines = lines_of(text);
+  std::vector<std::string> texts;
+  for (const Stretch& s : variant_lines(lines))
+    texts.push_back(
+        joined({lines.begin() + std::ptrdiff_t(s.first), lines.begin() + std::ptrdiff_t(s.last)}));
+  if (texts.size() != variant_blocks(text).size()) return {};
+  return texts;
+}
+
 std::string with_variants(const std::string& text, const std::vector<json>& blocks) {
   json wanted = parse_toml(text).root;
   const std::vector<json> old = variant_blocks(text);
@@ -239,11 +249,8 @@ std::string with_variants(const std::string& text, const std::vector<json>& bloc
     wanted["variant"] = blocks;
   std::vector<std::string> lines = lines_of(text);
   const std::vector<Stretch> stretches = variant_lines(lines);
+  const std::vector<std::string> texts = variant_texts(text);
   if (stretches.size() != old.size()) return written_anew(wanted, "variant");
-  std::vector<std::string> texts;
-  for (const Stretch& s : stretches)
-    texts.push_back(
-        joined({lines.begin() + std::ptrdiff_t(s.first), lines.begin() + std::ptrdiff_t(s.last)}));
   for (auto s = stretches.rbegin(); s != stretches.rend(); ++s) {
     std::size_t first = s->first;
     if (first > 0 && blank(lines[first - 1])) --first;

@@ -19,6 +19,10 @@ std::string with_value(const std::string& text, const std::string& key,
 /// The tables [[variant]] of a scene file, in its order.
 std::vector<nlohmann::json> variant_blocks(const std::string& text);
 
+/// The text of each of them, comments inside included; empty where they are not all written as
+/// [[variant]].
+std::vector<std::string> variant_texts(const std::string& text);
+
 /// `text` with another list of variants. A block that is equal to an existing one keeps the text of
 /// that one; the others are written anew.
 std::string with_variants(const std::string& text, const std::vector<nlohmann::json>& blocks);

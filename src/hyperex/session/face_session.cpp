@@ -32,14 +32,13 @@ scene::GivenFace given_face(Face face, motion::Motion motion) {
 
 FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
     : session_options(std::move(options)), source(std::move(given)) {
-  scene::Scene next = source.scene();
-  scene = next;
+  const scene::Scene first = source.scene();
+  scene = first;
   read();
   mesh();
   fields = std::make_unique<TissueFields>(inputs, *face.mesh);
   Stopwatch watch;
-  take(std::move(next));
-  check_faces_before_run(*simulator, runs);
+  take_at_first(first);
   seconds.tissue = watch.lap();
   begin_stage("assembling and factoring");
   Progress progress("assembling and factoring", 0);
@@ -69,7 +68,7 @@ void FaceSession::Impl::read() {
   begin_stage("reading scan and recording");
   Progress progress("reading scan and recording", 0);
   Stopwatch watch;
-  inputs = read_inputs(scene);
+  inputs = read_inputs(scene, Extent::full, !session_options.leave_out_variants);
   drive = drive_choice(scene);
   seconds.read = watch.lap();
   report(notes_on_inputs(Severity::note));
@@ -116,6 +115,36 @@ void FaceSession::Impl::take(scene::Scene next) {
   stale = stale || !same_base;
   std::vector<VariantRun> before = std::exchange(runs, std::move(now.runs));
   keep_variants(std::move(before), same_base);
+}
+
+/// Throws what a run would before it begins. Where the options say so, variants that cannot be run
+/// are left out: each is then tried alone.
+void FaceSession::Impl::take_at_first(const scene::Scene& given) {
+  const bool leave_out = session_options.leave_out_variants && !given.variants.empty();
+  const auto take_and_check = [&](const scene::Scene& next) {
+    if (leave_out) check_names_of_variants(next, inputs);  // else read() did
+    take(next);
+    check_faces_before_run(*simulator, runs);
+  };
+  try {
+    return take_and_check(given);
+  } catch (const InputError&) {
+    if (!leave_out) throw;
+  }
+  std::vector<scene::Variant> sound;
+  scene::Scene next = given;
+  for (const scene::Variant& variant : given.variants) {
+    try {
+      next.variants = {variant};
+      take_and_check(next);
+      sound.push_back(variant);
+    } catch (const InputError& error) {
+      left_out.push_back({variant.number, variant.name, error.what()});
+    }
+  }
+  next.variants = std::move(sound);
+  take_and_check(next);  // also throws what is wrong with base
+  source.replace(std::move(next));
 }
 
 /// Keeps the results of variants of the same name, as far as they are still valid.
@@ -190,6 +219,9 @@ bool FaceSession::set_scene(scene::Scene next) {
 
 const scene::Scene& FaceSession::scene() const {
   return impl_->scene;
+}
+const std::vector<scene::LeftOutVariant>& FaceSession::left_out() const {
+  return impl_->left_out;
 }
 const Inputs& FaceSession::inputs() const {
   return impl_->inputs;

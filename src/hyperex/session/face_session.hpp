@@ -21,8 +21,9 @@
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
 
 namespace hyperex::scene {
+struct LeftOutVariant;
 struct Scene;
-}
+}  // namespace hyperex::scene
 namespace hyperex::metrics {
 struct PeakTissue;
 struct SkinUncertainty;
@@ -50,6 +51,8 @@ struct SessionOptions {
   std::function<void(const Note&)> note = {};          ///< called with each note as it is found
   /// Called with the inputs before anything is meshed. If it throws, so does the constructor.
   std::function<void(const Inputs&)> inputs = {};
+  /// The constructor leaves out variants that it would refuse: left_out().
+  bool leave_out_variants = false;
 };
 
 /// Wall time of the stages, s; 0 for those that were kept.
@@ -156,6 +159,8 @@ class FaceSession {
   // ----- what it holds
 
   const scene::Scene& scene() const;  ///< with the drive that was chosen
+  /// The variants that SessionOptions::leave_out_variants kept out of scene(), in the file's order.
+  const std::vector<scene::LeftOutVariant>& left_out() const;
   const Inputs& inputs() const;
   const io::Scan& scan() const;  ///< as read; that of inputs() is thinned where it is large
   const tissue::TissueMesh& mesh() const;

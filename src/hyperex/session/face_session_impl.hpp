@@ -26,6 +26,7 @@ struct FaceSession::Impl {
   SessionOptions session_options;
   SceneSource source;  // what set() and variant() change
   scene::Scene scene;
+  std::vector<scene::LeftOutVariant> left_out;
 
   // The inputs, the mesh and what is computed from them.
   Inputs inputs;
@@ -72,6 +73,7 @@ struct FaceSession::Impl {
   void read();
   void mesh();
   void take(scene::Scene next);
+  void take_at_first(const scene::Scene& given);
   void take_source(SceneSource next);
   void set_obstacles();
   std::size_t changed_face() const;

@@ -168,7 +168,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
 
 }  // namespace
 
-Inputs read_inputs(const scene::Scene& scene, Extent extent) {
+Inputs read_inputs(const scene::Scene& scene, Extent extent, bool with_variants) {
   Files files;
   run_together({[&] { read_scan_files(scene, files); },
                 [&] { read_recording_files(scene, extent, files); }});
@@ -196,8 +196,8 @@ Inputs read_inputs(const scene::Scene& scene, Extent extent) {
     };
     check_known(scene, "");
     problems.throw_if_any();
-    for (std::size_t i = 0; i < scene.variants.size(); ++i)
-      check_known(scene.variants[i].scene, fmt::format("variant[{}].", i));
+    for (const scene::Variant& variant : scene.variants)
+      check_known(variant.scene, variant.owner());
     problems.throw_if_any();
     return in;
   }
@@ -209,13 +209,17 @@ Inputs read_inputs(const scene::Scene& scene, Extent extent) {
   problems.attempt([&] { check_names(scene, in); });
   problems.attempt([&] { check_element_size(scene, in); });
   problems.throw_if_any();
-  for (std::size_t i = 0; i < scene.variants.size(); ++i)
+  if (with_variants) check_names_of_variants(scene, in);
+  return in;
+}
+
+void check_names_of_variants(const scene::Scene& scene, const Inputs& inputs) {
+  Problems problems;
+  for (const scene::Variant& variant : scene.variants)
     problems.attempt([&] {
-      const scene::Scene& variant = scene.variants[i].scene;
-      check_names(variant, inputs_of_variant(variant, in), fmt::format("variant[{}].", i));
+      check_names(variant.scene, inputs_of_variant(variant.scene, inputs), variant.owner());
     });
   problems.throw_if_any();
-  return in;
 }
 
 Inputs inputs_of_variant(const scene::Scene& variant, const Inputs& inputs) {

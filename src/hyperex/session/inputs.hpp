@@ -60,8 +60,14 @@ enum class Extent {
   quick
 };
 
-/// Throws InputError, as far as possible with all problems at once.
-Inputs read_inputs(const scene::Scene& scene, Extent extent = Extent::full);
+/// Throws InputError, as far as possible with all problems at once. `with_variants`: also where
+/// check_names_of_variants() does.
+Inputs read_inputs(const scene::Scene& scene, Extent extent = Extent::full,
+                   bool with_variants = true);
+
+/// Throws InputError where a variant names points or landmarks that this face lacks. `inputs`: with
+/// landmarks.
+void check_names_of_variants(const scene::Scene& scene, const Inputs& inputs);
 
 /// A scene's inputs with a variant's driven points.
 Inputs inputs_of_variant(const scene::Scene& variant, const Inputs& inputs);

@@ -30,4 +30,7 @@ struct VariantRun {
 std::vector<VariantRun> prepare_variants(const scene::Scene& scene, const Inputs& inputs,
                                          TissueFields& fields);
 
+/// The warning `variant.left_out`, for whoever has opened the scene without this variant.
+Note left_out_warning(const scene::LeftOutVariant& variant);
+
 }  // namespace hyperex::session

@@ -246,6 +246,30 @@ TEST(ReadScene, VariantsThatCannotBe) {
               HasSubstr("variant[1].name = \"a\": expected a name that no other variant has"));
 }
 
+TEST(ReadScene, WrongVariantsAreLeftOutWhereTheCallerDoesWithoutThem) {
+  const std::string text = std::string(smallest) +
+                           "[[variant]]\nname = \"a\"\nmuscles.gain = { zyg_R = 0.3 }\n"
+                           "[[variant]]\nname = \"b\"\ntissue.young_kpa = 400\n"
+                           "[[variant]]\ntissue = { young_kpa = -4 }\n"
+                           "[[variant]]\nname = \"a\"\ntissue.young_kpa = 500\n";
+  std::vector<LeftOutVariant> left_out;
+  const Scene scene = read_scene_text(text, "scene.toml", &left_out);
+  ASSERT_EQ(scene.variants.size(), 2u);
+  EXPECT_EQ(scene.variants[0].owner(), "variant[1].");
+  EXPECT_EQ(scene.variants[1].name, "a") << "the name is free, as the first one is left out";
+  EXPECT_EQ(scene.variants[1].number, 3u);
+  ASSERT_EQ(left_out.size(), 2u);
+  EXPECT_EQ(left_out[0].number, 0u);
+  EXPECT_EQ(left_out[0].name, "a");
+  EXPECT_THAT(left_out[0].why,
+              HasSubstr("scene.toml:7: variant[0].muscles.gain.zyg_R = 0.3: expected"));
+  EXPECT_EQ(left_out[1].number, 2u);
+  EXPECT_EQ(left_out[1].name, "");
+  EXPECT_THAT(left_out[1].why, HasSubstr("variant[2].name: expected a name"));
+  EXPECT_THROW(read_scene_text(text, "scene.toml"), InputError);
+  EXPECT_THROW(read_scene_text("mesh.layers = -1\n" + text, "scene.toml", &left_out), InputError);
+}
+
 /// `hyperex new` writes such a block as a comment.
 TEST(ReadScene, AVariantWithoutANameIsCalledAsItsPreset) {
   const SceneFolder folder;

@@ -101,6 +101,16 @@ TEST(SceneText, EveryEditIsWhatWasWanted) {
   }
 }
 
+TEST(SceneText, VariantsHaveTextsWhereTheyAreWrittenOneByOne) {
+  EXPECT_THAT(variant_texts(kScene),
+              testing::ElementsAre("[[variant]]\nname = \"stiff\"\ntissue.young_kpa = 400\n",
+                                   "[[variant]]\nname = \"weak\"\n[variant.muscles]\n"
+                                   "gain = { zyg_major_R = 0.3 }\n"));
+  EXPECT_THAT(variant_texts("variant = [{ name = \"a\", tissue = { young_kpa = 4 } }]\n"),
+              testing::IsEmpty());
+  EXPECT_THAT(variant_texts("title = '''\n[[variant]]\n'''\n"), testing::IsEmpty());
+}
+
 TEST(SceneText, VariantsThatStayKeepTheirText) {
   std::vector<json> blocks = variant_blocks(kScene);
   ASSERT_EQ(blocks.size(), 2U);

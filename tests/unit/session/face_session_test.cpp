@@ -20,6 +20,7 @@
 #include "hyperex/session/same_face.hpp"
 #include "hyperex/session/scene_source.hpp"
 #include "hyperex/session/variants.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -183,6 +184,47 @@ TEST(FaceSession, ASceneThatIsRefusedChangesNothing) {
   face.set("tissue.young_kpa", 90);
   ASSERT_EQ(face.scene().variants.size(), 1u) << "the change, and no variant of the refused scene";
   EXPECT_NE(face.scene().variants[0].name, "softer");
+}
+
+const std::string kScar =
+    "[[variant]]\nname = \"scar\"\n"
+    "tissue.region = [{ scar = [\"cheilion_R\", \"nowhere\"], width_mm = 8, young_factor = 5 }]\n";
+
+TEST(FaceSession, LeavesOutVariantsThatCannotBeRunWhereItMay) {
+  const scene::Scene scene = scene_of(kCoarse + kMuscles + kScar +
+                                      "[[variant]]\nname = \"stiff\"\ntissue.young_kpa = 400\n"
+                                      "[[variant]]\nname = \"full\"\n"
+                                      "tissue.region = [{ name = \"cheek_R\", volume_ml = 30 }]\n");
+  EXPECT_THROW(FaceSession(scene, {.certainty = Certainty::on_request}), InputError);
+  FaceSession face(scene, {.certainty = Certainty::on_request, .leave_out_variants = true});
+  ASSERT_EQ(face.left_out().size(), 2u);
+  EXPECT_EQ(face.left_out()[0].name, "scar");
+  EXPECT_THAT(face.left_out()[0].why,
+              testing::AllOf(testing::HasSubstr("variant[0].tissue.region[0].scar"),
+                             testing::HasSubstr("nowhere is none")));
+  EXPECT_EQ(face.left_out()[1].number, 2u) << "found on the mesh, and named by its place";
+  EXPECT_THAT(face.left_out()[1].why,
+              testing::AllOf(testing::HasSubstr("variant[2].tissue.region[0].volume_ml"),
+                             testing::HasSubstr("this region alone takes up to")));
+  ASSERT_EQ(face.faces(), 2u);
+  EXPECT_EQ(face.variants()[0].scene.title, "stiff");
+  const FaceResult base = face.run();
+  EXPECT_GT(apart_mm(base, face.result(1)), 0.01);
+  const scene::Scene sound =
+      scene_of(kCoarse + kMuscles + "[[variant]]\nname = \"stiff\"\n" + "tissue.young_kpa = 400\n");
+  const FaceSession strict(sound, {.certainty = Certainty::on_request, .leave_out_variants = true});
+  EXPECT_TRUE(strict.left_out().empty());
+  EXPECT_EQ(strict.faces(), 2u);
+}
+
+TEST(FaceSession, LeavesOutNothingOfASceneThatIsWrongItself) {
+  const std::string lips = "[[tissue.region]]\nname = \"lips\"\npoisson_factor = -3\n";
+  const std::string said = test::refusal([&] {
+    FaceSession(scene_of(kCoarse + lips + kMuscles + kScar),
+                {.certainty = Certainty::on_request, .leave_out_variants = true});
+  });
+  EXPECT_EQ(said, test::refusal([&] { session_of(kCoarse + lips + kMuscles); }));
+  EXPECT_THAT(said, testing::HasSubstr("tissue.region[1].poisson_factor"));
 }
 
 TEST(FaceSession, ShapesMayBeSwitchedOffByKey) {

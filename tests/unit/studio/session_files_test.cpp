@@ -69,6 +69,105 @@ TEST_F(StudioSession, ASavedSceneOpensAgainFromItsFiles) {
   EXPECT_FALSE(ask("open", {{"what", "mine.toml"}}).contains("error"));
 }
 
+const std::string kCoarseFace =
+    "# One face.\n[scan]\nfile = \"embedded\"\n[motion]\nfile = \"embedded\"\n"
+    "[mesh]\nelement_size_mm = 10\nlayers = 1\n";
+const std::string kScarThroughNowhere =
+    "\n[[variant]]\nname = \"scar\"\n# Across the cheek.\n"
+    "tissue.region = [{ scar = [\"cheilion_R\", \"nowhere\"], width_mm = 8, young_factor = 5 }]\n";
+
+class StudioSessionWithWrongVariants : public StudioSession {
+ protected:
+  json open_scene(const std::string& text) {
+    std::ofstream(folder_.path() / "own" / "uploads" / "mixed.toml") << text;
+    return ask("open", {{"what", "mixed.toml"}});
+  }
+  std::string saved_scene() {
+    EXPECT_FALSE(ask("save", {{"what", "scene"}, {"name", "mine"}}).contains("error"));
+    return read_file(folder_.path() / "mine" / "mine.toml");
+  }
+  /// The names of the variants that the last event "face" says are left out.
+  std::vector<std::string> left_out() const {
+    std::vector<std::string> names;
+    for (const json& remark : event("face")->head["replay"]["summary"]["remarks"])
+      if (remark["id"] == "variant.left_out") names.push_back(remark["variant"]);
+    return names;
+  }
+  std::string logged() const {
+    std::string all;
+    for (const Message& message : messages_)
+      if (message.head.value("event", "") == "log")
+        all += message.head["text"].get<std::string>() + "\n";
+    return all;
+  }
+
+  const std::string text_ =
+      kCoarseFace + kScarThroughNowhere +
+      "\n[[variant]]\nname = \"stiff\"\ntissue.young_kpa = 400\n"
+      "\n# A muscle that is none.\n[[variant]]\nname = \"weak\"\nmuscles.gain = { zyg_R = 0.3 }\n";
+};
+
+TEST_F(StudioSessionWithWrongVariants, OpensAllElseAndSaysWhatIsLeftOut) {
+  ASSERT_FALSE(open_scene(text_).contains("error"));
+  EXPECT_THAT(
+      logged(),
+      testing::AllOf(HasSubstr("variant \"scar\" cannot be run and is left out here; a saved scene "
+                               "keeps it: mixed.toml:"),
+                     HasSubstr("variant[0].tissue.region[0].scar = [\"cheilion_R\", \"nowhere\"]: "
+                               "expected names of landmarks of the scan (nowhere is none)"),
+                     HasSubstr("variant \"weak\" cannot be run"),
+                     HasSubstr("variant[2].muscles.gain.zyg_R = 0.3: expected")));
+  const json faces = event("scene")->head["faces"];
+  ASSERT_EQ(faces.size(), 2U);
+  EXPECT_EQ(faces[1]["name"], "stiff");
+  work();
+  ASSERT_NE(event("face"), nullptr);
+  EXPECT_THAT(left_out(), testing::ElementsAre("scar", "weak"));
+  ask("hello");
+  work();
+  EXPECT_THAT(left_out(), testing::ElementsAre("scar", "weak")) << "also to a page loaded again";
+  ask("open", {{"what", "embedded"}});
+  work();
+  EXPECT_THAT(left_out(), testing::IsEmpty()) << "another scene";
+}
+
+TEST_F(StudioSessionWithWrongVariants, KeepsThemInWhatIsSaved) {
+  ASSERT_FALSE(open_scene(text_).contains("error"));
+  EXPECT_EQ(event("scene")->head["text"], text_);
+  EXPECT_EQ(saved_scene(), text_);
+  EXPECT_THAT(logged(), HasSubstr("the saved scene keeps 2 variants that cannot be run: "
+                                  "hyperex run refuses it"));
+  ASSERT_FALSE(set({{"tissue.young_kpa", 300}}, 1).contains("error"));
+  const std::string shown = event("scene")->head["text"], saved = saved_scene();
+  EXPECT_EQ(saved, shown);
+  EXPECT_EQ(saved, read_file(folder_.path() / "own" / "scene.toml")) << "kept after a crash, too";
+  EXPECT_THAT(saved, testing::AllOf(HasSubstr("young_kpa = 300"), HasSubstr(kScarThroughNowhere),
+                                    HasSubstr("gain = { zyg_R = 0.3 }")));
+  ASSERT_FALSE(open_scene(saved).contains("error"));
+  EXPECT_EQ(event("scene")->head["values"][1]["tissue.young_kpa"], 300);
+  work();
+  EXPECT_THAT(left_out(), testing::ElementsAre("scar", "weak"));
+}
+
+TEST_F(StudioSessionWithWrongVariants, RefusesWhatIsWrongInTheSceneItself) {
+  const std::string scar =
+                        "[[tissue.region]]\nscar = [\"cheilion_R\", \"nowhere\"]\n"
+                        "width_mm = 8\nyoung_factor = 5\n",
+                    lips = "[[tissue.region]]\nname = \"lips\"\npoisson_factor = -3\n";
+  for (const std::string& wrong : {std::string("[tissue]\nyoung_kpa = -3\n"), scar, lips}) {
+    const std::string error =
+        open_scene(kCoarseFace + wrong + kScarThroughNowhere).value("error", "");
+    EXPECT_THAT(error, HasSubstr(": tissue.")) << wrong;
+    EXPECT_EQ(error.find('\n'), std::string::npos) << error;
+    EXPECT_EQ(event("scene"), nullptr);
+  }
+  EXPECT_THAT(
+      open_scene("variant = [{ name = \"a\", tissue = { young_kpa = -4 } }]\n" + kCoarseFace)
+          .value("error", ""),
+      HasSubstr("variant[0].tissue.young_kpa"))
+      << "its text could not be kept";
+}
+
 TEST_F(StudioSession, WritesOverNothingThatItDidNotWrite) {
   open();
   std::ofstream(folder_.path() / "mine" / "theirs.toml") << "mine";
