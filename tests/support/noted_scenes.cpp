@@ -324,6 +324,8 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"sides.doubtful", "CheckAlone.SidesThatAreExchangedLessSurelyAreAWarning"},
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
+      {"scan.half_missing", "InputNotes.NameAScanOfHalfAFace"},
+      {"scan.flat", "InputNotes.NameAScanWithoutDepth"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
       {"variant.left_out", "StudioSessionWithWrongVariants.OpensAllElseAndSaysWhatIsLeftOut"},
   };

@@ -4,14 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <map>
 #include <set>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/anatomy/negated_axes.hpp"
 #include "hyperex/anatomy/register_face.hpp"
+#include "hyperex/anatomy/scan_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/geometry/transform.hpp"
@@ -20,12 +25,13 @@ namespace hyperex::anatomy {
 
 namespace {
 
-constexpr double kLargestOffset_m = 0.015;
+constexpr double kLargestOffset_m = kOffScan_m;
 // Eye corners alone spread by 0.07 about their line; less leaves the face's tilt to chance.
 constexpr double kLeastSpread = 0.04;
 // Faces differ from the canonical one by up to 17 mm at the jaw (subject A); a mistake is larger.
 constexpr double kLargestSurprise_m = 0.04;
 // A pair is exchanged if exchanging it back removes at least this share of the misfit.
+constexpr int kNoseTip = 30;  // of iBUG
 constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
 
 /// Begins as the name of a known landmark does.
@@ -82,10 +88,13 @@ std::string misplaced_as_a_whole(const io::Landmarks& given, std::size_t off, do
 /// Landmarks that float off the scan.
 std::vector<std::string> offset_problems(const io::Landmarks& given, const TriMesh& scan,
                                          const SurfaceTree& tree) {
+  std::map<std::string, double> off_m;
+  for (const auto& [name, position] : given)
+    off_m[name] = std::sqrt(tree.query(position).squared_distance);
+  if (const auto half = half_missing_problem(off_m)) return {*half};
   std::vector<std::string> problems;
   double least_m = 1e9, most_m = 0;
-  for (const auto& [name, position] : given) {
-    const double distance = std::sqrt(tree.query(position).squared_distance);
+  for (const auto& [name, distance] : off_m) {
     if (distance <= kLargestOffset_m) continue;
     least_m = std::min(least_m, distance);
     most_m = std::max(most_m, distance);
@@ -152,8 +161,9 @@ std::vector<std::string> exchange_problems(const KnownLandmarks& known) {
   return problems;
 }
 
-/// Landmarks far from where the others put them.
-std::vector<std::string> slip_problems(const KnownLandmarks& known) {
+/// Landmarks far from where the others put them. On a scan without depth many are: the nose shows
+/// that, unless it is the one that slipped.
+std::vector<std::string> slip_problems(const KnownLandmarks& known, const io::Landmarks& given) {
   std::vector<std::string> problems;
   const Eigen::Index count = known.given.rows();
   if (count < 5) return problems;
@@ -177,6 +187,9 @@ std::vector<std::string> slip_problems(const KnownLandmarks& known) {
       worst = known.names[std::size_t(i)];
     }
   }
+  if (const auto flat = flat_problem(given);
+      flat && !worst.empty() && face::place_name(worst) != face::ibug(kNoseTip))
+    return {*flat};
   if (!worst.empty())
     problems.push_back(
         fmt::format("landmark {} is {:.0f} mm from where the others put it: "
@@ -261,7 +274,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
           "by these landmarks the face looks into the scan: left and right are "
           "exchanged (L and R are the subject's own sides), or the scan's "
           "triangles are inside out");
-    if (problems.empty()) problems = slip_problems(known);
+    if (problems.empty()) problems = slip_problems(known, given);
   }
   if (!problems.empty()) refuse_all(source, problems);
 

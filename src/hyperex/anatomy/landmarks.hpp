@@ -20,11 +20,13 @@ struct CompletedLandmarks {
 /// registered face. `source` is the file to name in errors. Throws InputError, all problems at
 /// once:
 ///  * landmarks in other axes than the scan's (negated_axes_problem);
-///  * a given landmark farther than 15 mm from the scan's surface, named with the distance;
+///  * a given landmark farther than 15 mm from the scan's surface, named with the distance; where
+///    they are those of one side, one sentence (half_missing_problem);
 ///  * left and right exchanged: of one pair (the fit is far better with the pair exchanged back),
 ///    or of all (the face then looks into the scan, as it does where the scan's triangles are
 ///    inside out);
-///  * a landmark 4 cm or more from the place that all the others predict;
+///  * a landmark 4 cm or more from the place that all the others predict; where the scan has no
+///    depth, that (flat_problem);
 ///  * something is missing and fewer than three of the given are known to the canonical face, or
 ///    they lie nearly on a line; or a missing one is unknown to it.
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,

@@ -26,6 +26,14 @@ constexpr NoteKind kKinds[] = {
   warning("scan.turned_triangles", "scan.file",
     "At more than 2 % of the edges between two of the scan's triangles both run the same way, so "
     "that one of them is turned inside out."),
+  warning("scan.half_missing", "scan.file",
+    "By the landmarks of one half of the face, more than 60 % of the named places of the other "
+    "half lie more than 15 mm off the scan. Where landmarks of that half are given, the scan is "
+    "refused."),
+  warning("scan.flat", "scan.file",
+    "The tip of the nose stands before the plane of the corners of eyes and mouth by less than "
+    "0.15 of the distance between the outer corners of the eyes. On the faces measured it is 0.31 "
+    "to 0.52."),
   warning("recording.mirror_unknown", "motion.mirrored",
     "The recording is a video, which has no flag for mirroring, and motion.mirrored is not given."),
   warning("recording.time_unit_doubtful", "motion.file",

@@ -7,6 +7,7 @@
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
+#include "hyperex/anatomy/scan_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/geometry/turned_triangles.hpp"
 #include "hyperex/session/embedded_scan.hpp"
@@ -71,6 +72,7 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
         fmt::format("{} of {} landmarks were not given and were placed by fitting the canonical "
                     "face to the {} given ones and the scan",
                     in.placed.size(), in.landmarks.size(), given.size())));
+  append(in.notes, anatomy::scan_doubts(given, in.landmarks, scan.mesh));
 }
 
 void note_tissue_files(const scene::Scene& scene, Inputs& in) {

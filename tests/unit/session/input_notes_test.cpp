@@ -12,6 +12,7 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "support/half_face.hpp"
 #include "support/note_matchers.hpp"
 #include "support/refusal.hpp"
 #include "unit/scene/scene_files.hpp"
@@ -62,6 +63,27 @@ TEST_F(InputNotes, NameAScanWhoseTrianglesAreTurned) {
       read_inputs(scene::read_scene(folder_.write("turned.toml", text)), Extent::quick);
   EXPECT_THAT(found.notes,
               Contains(AllOf(is_warning("scan.turned_triangles"), says("turned inside out"))));
+}
+
+TEST_F(InputNotes, NameAScanOfHalfAFace) {
+  write_mm(folder_ / "face.ply", test::half_face(good_face(), false));
+  io::Landmarks landmarks = good_landmarks();
+  std::erase_if(landmarks, [](const auto& entry) { return entry.second.x() > 1e-3; });
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_THAT(notes({"mesh.element_size_mm=4"}),
+              Contains(AllOf(is_warning("scan.half_missing"), says("the left half"))));
+}
+
+TEST_F(InputNotes, NameAScanWithoutDepth) {
+  TriMesh sheet = good_face();
+  sheet.points.col(2) *= 0.1;
+  write_mm(folder_ / "face.ply", sheet);
+  io::Landmarks landmarks;
+  for (const char* name : {"exocanthion_R", "endocanthion_R", "endocanthion_L", "exocanthion_L",
+                           "pronasale", "cheilion_R", "cheilion_L"})
+    landmarks[name] = good_landmarks().at(name).cwiseProduct(Vec3(1, 1, 0.1));
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_THAT(notes(), Contains(AllOf(is_warning("scan.flat"), says(" mm before the plane"))));
 }
 
 TEST_F(InputNotes, KnowSlowRecordingsFromMilliseconds) {
