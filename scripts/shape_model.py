@@ -24,6 +24,7 @@ LEFT_OUT = ("Pupil", "eyeLook")
 LEAST_MM = 0.05
 REST_PERCENTILE = 5  # of a weight: the face at rest
 LEAST_SPREAD = 0.1
+CHEEK_SPREAD = 0.2  # of cheekSquint and cheekRaiser at least: the recording reports cheeks weakly (docs/muscles.md)
 COUPLING = 0.8
 LEAST_EIGENVALUE = 0.03
 ROUNDS = 100
@@ -32,6 +33,7 @@ LOWER_LIP = (324, 318, 402, 317, 14, 87, 178, 88, 95)
 AS = {"cheekRaiser": "cheekSquint"}  # shapes that the recording has no weight of: as these
 MIDDLE = ("eyeSquint", "cheekSquint", "cheekRaiser", "noseSneer")  # go with shapes of the mouth, and with each other
 UPPER = ("brow", "eyeBlink", "eyeWide")
+RAISED_CHEEK = ("cheekSquint", "cheekRaiser")
 LICENCE = """# SPDX-License-Identifier: GPL-3.0-or-later
 # Made by scripts/shape_model.py from {source}
 """
@@ -149,7 +151,8 @@ def couplings(names, weights):
         values, vectors = np.linalg.eigh(correlation)
         correlation = vectors * np.maximum(values, LEAST_EIGENVALUE) @ vectors.T
     correlation[apart] = 0
-    return np.maximum(spread, LEAST_SPREAD), correlation
+    least = [CHEEK_SPREAD if n.startswith(RAISED_CHEEK) else LEAST_SPREAD for n in names]
+    return np.maximum(spread, least), correlation
 
 
 def main():
