@@ -6,22 +6,27 @@
 // contact of the lips; teeth=1, eyes=1: contact of the tissue with the teeth (an average arch if
 // none are scanned) and of the lids with the eyeballs. muscles=FILE: with these muscles of the
 // template; write=FOLDER: writes the skin at the peak (NAME_7.ply); coverage=1: prints how often
-// the truth lies in the 95 % ellipsoid of the shapes' posterior. CASES has lines "name scene truth
-// 7|all", or "name scene - markers" for the recording of markers. Prints errors over parts of the
-// face at the peak, as shares of the error of the warp. bench/rig_cases.py makes truths for other
-// expressions of a rig.
+// the truth lies in the 95 % ellipsoid of the shapes' posterior. shape_registered=1: a registration
+// carries the shapes; still=1: prints what moves on the still side of kOneSided. CASES has lines
+// "name scene truth 7|all", or "name scene - markers" for the recording of markers. Prints errors
+// over parts of the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes
+// truths for other expressions of a rig.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fstream>
 #include <iostream>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <sstream>
+#include <string_view>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/kept_results.hpp"
+#include "hyperex/face/face_frame.hpp"
 #include "hyperex/geometry/rbf.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
@@ -106,6 +111,7 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("shape_smoothing", m.shape_smoothing_m, mm);
   take("shape_clear", m.shape_clear_m, mm);
   take("shape_reach", m.shape_reach_m, mm);
+  m.shapes_registered = has("shape_registered");
   return o;
 }
 
@@ -143,8 +149,11 @@ simulate::ShapePosterior posterior_of(const simulate::Performance& p,
   take("misfit_length", options.misfit_length_m, 1e-3);
   take("point", options.point_m, 1e-3);
   const metrics::DrivenMotion driven = metrics::driven_motion(p, upper_margin);
-  const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, driven.points,
-                                       simulate::MuscleOptions{}.shape_sigma_m);
+  simulate::MuscleOptions muscles;
+  muscles.shapes_registered = has("shape_registered");
+  const simulate::CarriedShapes shapes(
+      places.rest, places.upper_margin, landmarks, driven.points, muscles.shape_sigma_m,
+      simulate::registered_shapes(muscles, landmarks, p.skin_rest));
   return simulate::ShapePosterior(shapes, places, driven.places, options);
 }
 
@@ -170,6 +179,39 @@ void print_coverage(const simulate::ShapePosterior& posterior, const Points& err
                1e3 * std::sqrt(expected_squared / n), known / n);
   }
   fmt::print("\n");
+}
+
+/// Expressions of bench/rig_cases.py that move one side alone, or one side more: a mouth that goes
+/// to one side takes both along.
+constexpr std::array<std::string_view, 7> kOneSided = {
+    "oneSmile", "oneSmileR", "snarlL", "mouthLeft", "mouthRight", "winkL", "winkR"};
+
+/// Prints how far the skin of that side moves that moves less in truth: there, and how much farther
+/// here (0 where less far). Only skin more than 15 mm from the middle counts.
+void print_still_side(const TriMesh& truth, const Points& rest, const Points& moved,
+                      const metrics::Regions& regions, const io::Landmarks& landmarks) {
+  constexpr double from_middle_m = 0.015;
+  struct Side {
+    std::vector<double> true_mm, beyond_mm;
+  };
+  Side right, left;
+  const auto mean = [](const std::vector<double>& of) {
+    return std::accumulate(of.begin(), of.end(), 0.0) / double(of.size());
+  };
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  for (const int v : regions.find("face")->vertices) {
+    const double x = frame.local(rest.row(v).transpose()).x();
+    if (std::abs(x) < from_middle_m) continue;
+    Side& side = x > 0 ? left : right;
+    side.true_mm.push_back(1e3 * (truth.points.row(v) - rest.row(v)).norm());
+    const double found_mm = 1e3 * (moved.row(v) - rest.row(v)).norm();
+    side.beyond_mm.push_back(std::max(0.0, found_mm - side.true_mm.back()));
+  }
+  const bool left_is_still = mean(left.true_mm) < mean(right.true_mm);
+  const Side& still = left_is_still ? left : right;
+  fmt::print("   still side {}: up to {:.2f} mm in truth; beyond it up to {:.2f} mm, mean {:.2f}\n",
+             left_is_still ? "L" : "R", std::ranges::max(still.true_mm),
+             std::ranges::max(still.beyond_mm), mean(still.beyond_mm));
 }
 
 /// Vertices of the lips that pass through each other in a motion of the skin. If the truth has such
@@ -273,6 +315,8 @@ Score score_scan(const std::string& name, const std::string& scene_file,
   if (has("eyes")) fmt::print("  eyes {:.2f} -> {:.3f}", c.eyes_mm, c.eyes_left_mm);
   fmt::print("  residual {:.4f}, {} frames, {:.2f} s\n", c.residual_mm, c.frames, c.seconds);
   if (has("show") && !p.muscles.names.empty()) show(p.muscles);
+  if (has("still") && std::ranges::count(kOneSided, name.substr(name.find('_') + 1)) > 0)
+    print_still_side(truth, rest, moved, regions, inputs.landmarks);
   if (has("coverage"))
     print_coverage(posterior_of(p, mesh->skin_upper_margin,
                                 {rest,

@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Scenes with known answers from a rig: rig_cases.py FOLDER_OF_THE_DATA_SET OUT [SUBJECT ...]
+"""Scenes with known answers from a rig: rig_cases.py FOLDER_OF_THE_DATA_SET OUT [SUBJECT ...] [EXPRESSION ...]
 
 Of each expression below and each subject (A, D and E unless named): the scan moved as the rig moves
 (SUBJECT_NAME_truth.ply, same vertices), a ramp of one second of its 68 landmarks (SUBJECT_NAME_mm.csv), scenes with
 seven and with all points (SUBJECT_NAME_7.toml, SUBJECT_NAME_all.toml), and for muscle_bench OUT/cases.txt, with the
-real smile and the markers, which belong to no subject of the rig. About a minute a subject. Needs Debian's
-python3-scipy."""
+real smile and the markers, which belong to no subject of the rig. Where expressions are named, those alone, FURTHER
+ones too. About a minute a subject. Needs Debian's python3-scipy."""
 import csv
 import json
 import os
@@ -36,6 +36,11 @@ EXPRESSIONS = {
     "press": {"mouthPress": 0.8},
     "shrug": {"mouthShrugLower": 0.8, "mouthShrugUpper": 0.4},
     "snarlL": {"noseSneer_L": 0.9, "mouthUpperUp_L": 0.7},
+}
+FURTHER = {  # made where they are named
+    "mouthRight": {"mouthRight": 0.8},
+    "winkL": {"eyeBlink_L": 1, "cheekSquint_L": 0.6},
+    "winkR": {"eyeBlink_R": 1, "cheekSquint_R": 0.6},
 }
 TALK_S = {"talk46": 1.533333, "talk24": 0.8, "talk69": 2.3, "talk93": 3.1}  # of the talk recording
 MOUTH = (48, 54, 51, 57, 8, 58, 56)
@@ -204,8 +209,8 @@ def expressions(rig, data):
     return all_of_them
 
 
-def write_subject(data, out, subject):
-    """All expressions of one subject; returns their lines for muscle_bench."""
+def write_subject(data, out, subject, named=()):
+    """All expressions of one subject, or those named; returns their lines for muscle_bench."""
     scan_of = f"{data}/ict/subject_{subject}"
     rig = Rig(f"{data}/ict", subject)
     scan, header, tail = read_ply(f"{scan_of}_neutral_scan.ply")
@@ -213,7 +218,10 @@ def write_subject(data, out, subject):
     triangle, weight = places(rig, scan, opened)
     still = heads(rig)
     lines = []
-    for expression, weights in expressions(rig, data).items():
+    known = expressions(rig, data)
+    if named:
+        known = {expression: (known | FURTHER)[expression] for expression in named}
+    for expression, weights in known.items():
         name = f"{subject}_{expression}"
         moved = rig.moved(weights)
         carried = (weight[:, :, None] * moved[rig.triangles[triangle]]).sum(1)
@@ -230,12 +238,20 @@ def write_subject(data, out, subject):
 
 def main():
     data, out = (os.path.abspath(path) for path in sys.argv[1:3])
+    subjects = [name for name in sys.argv[3:] if name in SUBJECTS]
+    named = [name for name in sys.argv[3:] if name not in SUBJECTS]
+    known = [*EXPRESSIONS, *FURTHER, *TALK_S]
+    for name in named:
+        if name not in known:
+            sys.exit(f"{name} is no subject and no expression: expected one of {', '.join([*SUBJECTS, *known])}")
     os.makedirs(out, exist_ok=True)
-    smile = f"{data}/real/spacetime/smile"
-    lines = [f"real {smile}_{kind}.toml {smile}.ply {kind}" for kind in ("7", "all")]
-    lines.append(f"markers {data}/real/animface/cheeks_7.toml - markers")
-    for subject in sys.argv[3:] or SUBJECTS:
-        lines += write_subject(data, out, subject)
+    lines = []
+    if not named:
+        smile = f"{data}/real/spacetime/smile"
+        lines += [f"real {smile}_{kind}.toml {smile}.ply {kind}" for kind in ("7", "all")]
+        lines.append(f"markers {data}/real/animface/cheeks_7.toml - markers")
+    for subject in subjects or SUBJECTS:
+        lines += write_subject(data, out, subject, named)
     with open(f"{out}/cases.txt", "w") as stream:
         stream.write("\n".join(lines) + "\n")
 

@@ -276,6 +276,18 @@ void bind_parts(SessionClass bound, py::module_& m) {
           "due to what the driven points do not determine. None where shapes of real faces do "
           "not take part.")
       .def_property_readonly(
+          "uncertainty",
+          [](const S& s) -> py::object {
+            const session::FaceSession& session = s.session();
+            const metrics::SkinUncertainty* known = session.skin_uncertainty();
+            if (!known) return py::none();
+            return loaded(metrics::json_of(*known, session.simulation().performance.skin_rest,
+                                           session.inputs().landmarks));
+          },
+          "Per region, once base was run: what `uncertainty` of summary.json has, as a dict. Its "
+          "expected error and the share of its motion's variance that the driven points "
+          "determine. None where shapes of real faces do not take part.")
+      .def_property_readonly(
           "jitter_m", [](const S& s) { return s.session().inputs().jitter_m; },
           "Jitter of the recorded points; 0: none known.")
       .def(

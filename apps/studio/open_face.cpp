@@ -117,6 +117,8 @@ json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
   summary["head_turn_uncertainty_deg"] = all.inputs.head_turn_uncertainty_deg;
   const simulate::Performance& p = all.simulation.performance;
   summary["peak_time_s"] = p.frame_time_s[std::size_t(p.peak_frame)];
+  if (all.uncertainty)
+    summary["uncertainty"] = metrics::json_of(*all.uncertainty, p.skin_rest, all.inputs.landmarks);
   const std::vector<session::VariantRun>& variants = session_.variants();
   if (!variants.empty()) summary["variants"] = {{"table", run::variant_table(all, variants)}};
   const run::ReplayPage page(all, variants, summary);

@@ -89,9 +89,13 @@ class FaceSessions(unittest.TestCase):
         face.run()
         self.assertEqual(face.expected_error_mm.shape, face.performance().skin_displacement_m.shape[1:2])
         self.assertGreater(face.expected_error_mm.min(), 0)
+        self.assertGreater(face.uncertainty["lips"]["determined"], face.uncertainty["eyes"]["determined"])
+        cheeks = face.uncertainty["cheeks"]["distance_rms_mm"]
+        self.assertTrue(face.expected_error_mm.min() < cheeks < face.expected_error_mm.max())
         face = hyperex.FaceSession(EXAMPLES / "stiff_cheek.toml", {"drive.by": "displacement", **COARSE})
         face.run()
         self.assertIsNone(face.expected_error_mm)
+        self.assertIsNone(face.uncertainty)
 
     def test_from_memory(self):
         face = hyperex.embedded_face()

@@ -104,6 +104,21 @@ test('the map of asymmetry says what it cannot show, and no other map does', asy
   await close();
 });
 
+test('beside the expected error stands how much of the motion the recording shows', async () => {
+  const caution = async (uncertainty) => {
+    const { page, complaints, close } = await changedPage(({ summary }) => Object.assign(summary, { uncertainty }));
+    await page.locator('#colouring [data-colouring=uncertainty]').click();
+    const text = await page.locator('#colour-caution').textContent();
+    assert.deepEqual(complaints, []);
+    await close();
+    return text;
+  };
+  assert.equal(await caution({
+    cheeks: { distance_rms_mm: 3.9, determined: 0.437 }, lips: { distance_rms_mm: 2, determined: 0.92 }, chin: { determined: 0.5 },
+  }), 'Of the motion the recording shows: lips 92 %, cheeks 44 %. Without errors of mesh and tissue.');
+  assert.equal(await caution(undefined), 'Without errors of mesh and tissue.');
+});
+
 test('beside S(t) stand the millimetres, and where both order two faces differently', async () => {
   const caption = (page) => page.locator('.plot-card').filter({ has: page.getByRole('heading', { name: 'Symmetry of motion, S(t)' }) }).locator('p').first();
   const made = (left) => changedPage((data) => {

@@ -355,6 +355,17 @@ TEST_F(StudioSessionWithBands, ADoubtfulLandmarkIsToldAgainToAPageThatIsLoadedAg
   EXPECT_TRUE(event("face")->head["replay"]["summary"]["head_shift_uncertainty_mm"].is_number());
 }
 
+TEST_F(StudioSession, SaysHowMuchOfTheMotionTheRecordingShows) {
+  open();
+  const json& parts = event("face")->head["replay"]["summary"].at("uncertainty");
+  for (const char* part : {"lips", "cheeks", "eyes", "forehead"})
+    EXPECT_GT(parts.at(part).at("distance_rms_mm").get<double>(), 0) << part;
+  const auto share = [&](const char* part) {
+    return parts.at(part).at("determined").get<double>();
+  };
+  EXPECT_GT(share("lips"), share("eyes"));
+}
+
 TEST_F(StudioSession, AChangeMayNameItsFaceInTheSameStep) {
   open();
   ask("add_variant", {{"name", "What if"}, {"like", 0}});

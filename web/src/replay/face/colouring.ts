@@ -110,6 +110,16 @@ function asymmetryOfMotion(replay: Replay, mirror: NonNullable<Replay['mirror']>
   return { key: 'asymmetry', label: 'Asymmetry', of: () => (painting ??= made()) };
 }
 
+/** How much of the motion's variance the driven points determine, of the parts that the program prints. */
+function shownShares({ uncertainty }: Record<string, unknown>): string {
+  const known = (uncertainty ?? {}) as Record<string, { determined: number } | undefined>;
+  const shares = ['lips', 'cheeks', 'eyes', 'forehead'].flatMap((part) => {
+    const share = known[part]?.determined;
+    return share === undefined ? [] : [`${part} ${Math.round(100 * share)} %`];
+  });
+  return shares.length > 0 ? `Of the motion the recording shows: ${shares.join(', ')}. ` : '';
+}
+
 function expectedError(replay: Replay, map: SkinMap): Colouring {
   const remark = replay.faces.length > 1 ? 'that of base' : '';
   const greatest = niceCeiling(map.greatest);
@@ -119,7 +129,7 @@ function expectedError(replay: Replay, map: SkinMap): Colouring {
     fill(_shape, out) {
       for (let i = 0; i < out.length; ++i) out[i] = factor * map.bytes[i];
     },
-    caution: 'Without errors of mesh and tissue.',
+    caution: `${shownShares(replay.summary)}Without errors of mesh and tissue.`,
     note: without,
   };
   return { key: 'uncertainty', label: 'Error', of: () => painting };
