@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
 #include <set>
@@ -15,7 +16,6 @@
 #include "hyperex/anatomy/scan_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
-#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -31,7 +31,6 @@ constexpr double kLeastSpread = 0.04;
 // Faces differ from the canonical one by up to 17 mm at the jaw (subject A); a mistake is larger.
 constexpr double kLargestSurprise_m = 0.04;
 // A pair is exchanged if exchanging it back removes at least this share of the misfit.
-constexpr int kNoseTip = 30;  // of iBUG
 constexpr double kExchangedShare = 0.5, kExchangedRms_m = 0.006;
 
 /// Begins as the name of a known landmark does.
@@ -91,7 +90,6 @@ std::vector<std::string> offset_problems(const io::Landmarks& given, const TriMe
   std::map<std::string, double> off_m;
   for (const auto& [name, position] : given)
     off_m[name] = std::sqrt(tree.query(position).squared_distance);
-  if (const auto half = half_missing_problem(off_m)) return {*half};
   std::vector<std::string> problems;
   double least_m = 1e9, most_m = 0;
   for (const auto& [name, distance] : off_m) {
@@ -103,7 +101,9 @@ std::vector<std::string> offset_problems(const io::Landmarks& given, const TriMe
                     "at most {:.0f} mm",
                     name, distance * 1e3, kLargestOffset_m * 1e3));
   }
-  if (problems.size() > 3 && 2 * problems.size() > given.size())
+  if (problems.size() <= 3) return problems;
+  if (const auto half = half_missing_problem(off_m)) return {*half};
+  if (2 * problems.size() > given.size())
     return {misplaced_as_a_whole(given, problems.size(), least_m, most_m, scan)};
   return problems;
 }
@@ -161,8 +161,15 @@ std::vector<std::string> exchange_problems(const KnownLandmarks& known) {
   return problems;
 }
 
+/// Whether the landmark is the nose's tip or a corner of the plane that its depth is measured from.
+bool measures_depth(const std::string& name) {
+  constexpr std::array kPlaces = {30, 36, 45, 48, 54};  // of iBUG
+  const std::optional<int> place = face::ibug_number_of_place(name);
+  return place && std::ranges::find(kPlaces, *place) != kPlaces.end();
+}
+
 /// Landmarks far from where the others put them. On a scan without depth many are: the nose shows
-/// that, unless it is the one that slipped.
+/// that, unless it or a corner of its plane is the one that slipped.
 std::vector<std::string> slip_problems(const KnownLandmarks& known, const io::Landmarks& given) {
   std::vector<std::string> problems;
   const Eigen::Index count = known.given.rows();
@@ -187,8 +194,7 @@ std::vector<std::string> slip_problems(const KnownLandmarks& known, const io::La
       worst = known.names[std::size_t(i)];
     }
   }
-  if (const auto flat = flat_problem(given);
-      flat && !worst.empty() && face::place_name(worst) != face::ibug(kNoseTip))
+  if (const auto flat = flat_problem(given); flat && !worst.empty() && !measures_depth(worst))
     return {*flat};
   if (!worst.empty())
     problems.push_back(

@@ -33,6 +33,9 @@ constexpr double kMissingShare = 0.6, kStrayShare = 0.1;
 constexpr std::size_t kFewestPlaces = 4, kFewestOfHalf = 2;
 // Fewer places or nearer to a line lay the face on the scan too loosely to judge its other half.
 constexpr double kLeastSpreadOfHalf = 0.3;
+// Half a face fitted to a shallower scan turns about the vertical axis, so that the other half
+// leaves it. True halves have 0.42 or more (docs/landmarks.md).
+constexpr double kLeastNoseOfHalves = 0.3;
 
 /// Nothing: in the midline, or not known.
 std::optional<HalfFace> half_of(const std::string& name) {
@@ -117,10 +120,11 @@ std::optional<double> nose_before_plane(const io::Landmarks& landmarks) {
 
 std::vector<Note> scan_doubts(const io::Landmarks& given, const io::Landmarks& all,
                               const TriMesh& scan) {
-  std::vector<Note> warnings;
-  if (const auto missing = half_missing_warning(given, scan)) warnings.push_back(*missing);
-  if (const auto flat = flat_problem(all)) warnings.push_back(make_warning("scan.flat", *flat));
-  return warnings;
+  if (const auto flat = flat_problem(all)) return {make_warning("scan.flat", *flat)};
+  const std::optional<double> nose = nose_before_plane(all);
+  if (nose && *nose < kLeastNoseOfHalves) return {};
+  if (const auto missing = half_missing_warning(given, scan)) return {*missing};
+  return {};
 }
 
 std::optional<std::string> half_missing_problem(const std::map<std::string, double>& off_m) {

@@ -39,7 +39,7 @@ struct Files {
   bool scan_read = false;
 };
 
-void read_scan_files(const scene::Scene& scene, Files& files) {
+void read_scan_files(const scene::Scene& scene, bool with_variants, Files& files) {
   Part& scan = files.scan;
   scan.problems.attempt([&] {
     read_scan(scene, scan.in);
@@ -47,7 +47,7 @@ void read_scan_files(const scene::Scene& scene, Files& files) {
   });
   if (files.scan_read) {
     note_turned_triangles(scene, scan.in);
-    scan.problems.attempt([&] { note_tissue_files(scene, scan.in); });
+    scan.problems.attempt([&] { note_tissue_files(scene, scan.in, with_variants); });
   }
   scan.problems.attempt([&] { files.given = given_landmarks(scene); });
   if (files.scan_read && !files.given.empty())
@@ -170,7 +170,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
 
 Inputs read_inputs(const scene::Scene& scene, Extent extent, bool with_variants) {
   Files files;
-  run_together({[&] { read_scan_files(scene, files); },
+  run_together({[&] { read_scan_files(scene, with_variants, files); },
                 [&] { read_recording_files(scene, extent, files); }});
   Problems problems;
   Inputs in = joined(scene, extent, files, problems);

@@ -75,7 +75,7 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
   append(in.notes, anatomy::scan_doubts(given, in.landmarks, scan.mesh));
 }
 
-void note_tissue_files(const scene::Scene& scene, Inputs& in) {
+void note_tissue_files(const scene::Scene& scene, Inputs& in, bool refuse_variants) {
   const auto note_once = [&](std::vector<Note> notes) {
     for (Note& note : notes)
       if (std::find(in.notes.begin(), in.notes.end(), note) == in.notes.end())
@@ -86,8 +86,11 @@ void note_tissue_files(const scene::Scene& scene, Inputs& in) {
   };
   note_once(tissue::notes_on_depth_files(scene.mesh, in.scan.mesh));
   add(scene);
-  for (const scene::Variant& variant : scene.variants)
-    if (!(variant.scene.tissue == scene.tissue)) add(variant.scene);
+  for (const scene::Variant& variant : scene.variants) try {
+      if (!(variant.scene.tissue == scene.tissue)) add(variant.scene);
+    } catch (const InputError&) {
+      if (refuse_variants) throw;  // else the variant is left out when its tissue is set
+    }
 }
 
 io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::vector<Note>& notes,

@@ -25,7 +25,7 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
                         Inputs& in);
 
 /// Reads the files of tissue per vertex, of the scene and of its variants; each note once. Throws
-/// InputError.
-void note_tissue_files(const scene::Scene& scene, Inputs& in);
+/// InputError; of a wrong file of a variant only with `refuse_variants`.
+void note_tissue_files(const scene::Scene& scene, Inputs& in, bool refuse_variants);
 
 }  // namespace hyperex::session

@@ -36,7 +36,6 @@ Note left_out_warning(const scene::LeftOutVariant& variant) {
                       ? fmt::format("number {}", variant.number + 1)
                       : printable(nlohmann::json(variant.name).dump(), most_quoted),
                   why));
-  note.variant = variant.name;
   return note;
 }
 

@@ -84,6 +84,11 @@ TEST(CompleteLandmarks, RefusesALandmarkThatSlippedAlongTheScan) {
   given["ibug68_48"] = face.landmarks.at("ibug68_17");
   expect_refused([&] { complete_landmarks(given, {}, face.mesh, "l.json"); },
                  {"landmark ibug68_48", "from where the others put it"});
+  // A corner of the eye at the chin puts the nose behind the plane: the scan is not blamed.
+  given = only(face.landmarks, kSeven);
+  given["ibug68_36"] = face.landmarks.at("ibug68_8");
+  expect_refused([&] { complete_landmarks(given, {}, face.mesh, "l.json"); },
+                 {"landmark ibug68_36", "from where the others put it"});
 }
 
 TEST(CompleteLandmarks, RefusesExchangedSides) {

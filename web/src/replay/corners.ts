@@ -183,9 +183,10 @@ function alongWords(change: CornerChange): string {
 
 /** "in the unchanged direction 5.9 ± 0.8 mm less", where the corner turns aside; else empty. */
 export function directionWords(change: CornerChange): string {
-  const { alongMm, sameWay, along: { bandMm } } = change;
+  const { alongMm, sameWay, along: { bandMm, undecided, cannotTell } } = change;
   if (sameWay) return '';
-  if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction${bandMm === null ? '' : `, ${alongWords(change)}`}`;
+  const judged = bandMm !== null || undecided || cannotTell;
+  if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction${judged ? `, ${alongWords(change)}` : ''}`;
   return `in the unchanged direction ${asideMm(change) === 0 ? 'as far as there' : alongWords(change)}`;
 }
 
