@@ -10,6 +10,7 @@
 #include "hyperex/report/geometry_sections.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::report {
@@ -108,6 +109,27 @@ json variant_muscles(const std::vector<std::string>& groups, const Eigen::Matrix
   return out;
 }
 
+/// For each line a text with one character per sample of the scene's own muscles: 1 where the
+/// recording distinguishes the muscle's activation from 0, else 0. The text is empty for a muscle
+/// that `course` lacks, and there are no texts where `course` has other samples.
+json active_muscles(const ReportInput& input, const simulate::MuscleCourse& course) {
+  json texts = json::array();
+  const auto samples = Index(input.performance.muscles.time_s.size());
+  if (course.time_s != input.performance.muscles.time_s) return texts;
+  if (course.activation.cols() != samples || course.sigma.cols() != samples) return texts;
+  for (const ReportMuscle& line : input.muscles) {
+    const auto found = std::find(course.names.begin(), course.names.end(), line.name);
+    std::string text;
+    for (Index k = 0; found != course.names.end() && k < samples; ++k) {
+      const auto row = Index(found - course.names.begin());
+      text +=
+          simulate::differs_from_zero(course.activation(row, k), course.sigma(row, k)) ? '1' : '0';
+    }
+    texts.push_back(text);
+  }
+  return texts;
+}
+
 json variants_section(const ReportInput& input, BinaryBlock& block) {
   const auto& own = input.performance.skin_displacement_m;
   json section = json::array();
@@ -132,6 +154,7 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
          {"symmetry", symmetry_section(variant.symmetry)},
          {"landmarks", positions_of(variant.performance.landmarks, block)},
          {"muscles", variant_muscles(input.performance.muscles.groups, variant.group_activation)},
+         {"active_muscles", active_muscles(input, variant.performance.muscles)},
          {"tissue", tissue_section(variant.tissue, block)}});
   }
   return section;
@@ -172,7 +195,8 @@ json muscle_section(const ReportInput& input) {
       {"time_s", muscles.time_s},
       {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},
       {"groups", muscle_groups(muscles)},
-      {"lines", lines}};
+      {"lines", lines},
+      {"active", active_muscles(input, muscles)}};
 }
 
 json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include "hyperex/core/run_together.hpp"
-#include "hyperex/core/within_95.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
@@ -20,6 +19,7 @@
 #include "hyperex/render/time_plot.hpp"
 #include "hyperex/run/activations.hpp"
 #include "hyperex/run/face_box.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 
 namespace hyperex::run {
 namespace {
@@ -44,9 +44,8 @@ class AtPeak {
       : course_(course), sample_(most_active_sample(course)) {}
   double time_s() const { return course_.time_s[std::size_t(sample_)]; }
   double activation(const std::string& name) const { return at(course_.activation, name); }
-  /// Whether its 95 % interval leaves 0 out.
   bool known(const std::string& name) const {
-    return std::abs(activation(name)) > kWithin95 * at(course_.sigma, name);
+    return simulate::differs_from_zero(activation(name), at(course_.sigma, name));
   }
 
  private:

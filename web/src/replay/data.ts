@@ -39,6 +39,8 @@ export interface Face {
   tissue: SkinMap[];
   /** Activations over time, as in `Muscles.groups`; [] where not known. */
   muscles: { left: number[]; right: number[] }[];
+  /** Of each of `Muscles.lines`, a character per sample: 0 where the activation may be 0 (95 %). [] where not known. */
+  activeMuscles: string[];
   /** Frames x 7: the jaw's quaternion x y z w and its translation since rest; null without teeth. */
   jaw: Float32Array | null;
   /** The pose that surgery gave the upper teeth, quaternion x y z w and translation; null where it moved none. */
@@ -181,6 +183,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(manifest.landmarks.positions),
     tissue: tissueOf(manifest.tissue, block),
     muscles: manifest.muscles?.groups ?? [],
+    activeMuscles: manifest.muscles?.active ?? [],
     jaw: manifest.motion.jaw ? block.float32(manifest.motion.jaw) : null,
     upperTeeth: manifest.motion.upper_teeth ?? null,
   };
@@ -199,6 +202,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(variant.landmarks),
     tissue: tissueOf(variant.tissue, block),
     muscles: variant.muscles ?? [],
+    activeMuscles: variant.active_muscles ?? [],
     jaw: variant.jaw ? block.float32(variant.jaw) : null,
     upperTeeth: variant.upper_teeth ?? null,
   }));

@@ -47,6 +47,8 @@ export interface MuscleData {
   groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
   /** From origin to insertion, at rest. */
   lines: { name: string; latin: string; points: [number, number, number][] }[];
+  /** Of each line, a character per sample: 1 where the activation differs from 0 (95 %), else 0. "": not known. */
+  active?: string[];
 }
 
 /** Other tissue on the same mesh, moved by the same motion at the same times. */
@@ -67,6 +69,8 @@ export interface VariantData {
   tissue: SkinMapData[];
   /** Activations of the groups of the scene's own muscles; [] where unknown. */
   muscles?: { left: number[]; right: number[] }[];
+  /** As MuscleData.active; [] where unknown. */
+  active_muscles?: string[];
   /** See motion.jaw. */
   jaw?: Stretch;
   /** See motion.upper_teeth. */

@@ -8,7 +8,8 @@ import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
 import { LineSegments2 } from 'three/examples/jsm/lines/LineSegments2.js';
 import { LineSegmentsGeometry } from 'three/examples/jsm/lines/LineSegmentsGeometry.js';
 import { LineMaterial } from 'three/examples/jsm/lines/LineMaterial.js';
-import type { Replay, Vec3 } from '../data';
+import type { Face, Muscles, Replay, Vec3 } from '../data';
+import { activeLines } from './active_muscles';
 import { nearestVertex } from './deform';
 
 export type OverlayName = 'cut' | 'driven' | 'held' | 'muscles';
@@ -17,9 +18,11 @@ export interface Overlay {
   name: OverlayName;
   label: string;
   colour: string;
+  /** What its colours mean. */
+  legend?: string;
   object: Object3D;
-  /** Follow the skin's displacement (metres, x y z a vertex). */
-  follow(displacement: Float32Array): void;
+  /** Follow the skin's displacement (metres, x y z a vertex) of a face in a frame, which may lie between two. */
+  follow(displacement: Float32Array, face: Face, frame: number): void;
 }
 
 const drawnLast = { depthTest: false, depthWrite: false, transparent: true };
@@ -91,32 +94,74 @@ function cutOverlay(replay: Replay): Overlay {
   return { name: 'cut', label: 'Lip cut', colour, object: group, follow };
 }
 
-/** From origin to insertion; each point follows the nearest skin, though deep muscles move less. So it shows their
- *  course, not their stretch. */
-function muscleOverlay(replay: Replay, lines: Vec3[][], colour = '#b5179e', linewidth = 2.5): Overlay {
+const muscleColour = '#b5179e';
+/** 0.7 of the way to white, as in the picture of the muscles (src/hyperex/run/muscle_picture.cpp). */
+const paleMuscle = '#e9b9e2';
+
+/** Lines that follow the skin. */
+interface Lines {
+  object: LineSegments2;
+  /** Each point follows the nearest skin, though deep muscles move less. So it shows their course, not their stretch. */
+  follow(displacement: Float32Array): void;
+  /** A colour for each line. */
+  paint(colours: Color[]): void;
+}
+
+function linesOver(replay: Replay, lines: Vec3[][], linewidth: number): Lines {
   const ends = lines.flatMap((line) => line.slice(1).flatMap((p, i) => [line[i], p]));
   const flat = new Float32Array(ends.flat());
   let vertex: number[] | null = null; // found when first shown
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(flat);
-  const object = new LineSegments2(
-    geometry, new LineMaterial({ color: new Color(colour).getHex(), linewidth, opacity: 0.85, ...drawnLast }));
+  const object = new LineSegments2(geometry, new LineMaterial({ vertexColors: true, linewidth, opacity: 0.85, ...drawnLast }));
   object.frustumCulled = false;
   object.renderOrder = 2;
-  const follow = (d: Float32Array) => {
-    vertex ??= ends.map((p) => nearestVertex(replay.points, p).vertex);
-    ends.forEach((p, i) => {
-      for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex![i] + k];
-    });
-    geometry.setPositions(flat);
+  return {
+    object,
+    follow(d) {
+      vertex ??= ends.map((p) => nearestVertex(replay.points, p).vertex);
+      ends.forEach((p, i) => {
+        for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex![i] + k];
+      });
+      geometry.setPositions(flat);
+    },
+    paint(colours) {
+      geometry.setColors(lines.flatMap((line, i) =>
+        Array.from({ length: 2 * (line.length - 1) }, () => colours[i].toArray()).flat()));
+    },
   };
-  return { name: 'muscles', label: 'Muscles', colour, object, follow };
+}
+
+/** From origin to insertion. Pale: what may be at rest in the frame shown. */
+function muscleOverlay(replay: Replay, muscles: Muscles): Overlay {
+  const { object, follow, paint } = linesOver(replay, muscles.lines.map(({ points }) => points), 2.5);
+  const [full, pale] = [new Color(muscleColour), new Color(paleMuscle)];
+  let painted = '';
+  const paintActive = (active: boolean[]) => {
+    const now = active.map(Number).join('');
+    if (now === painted) return;
+    painted = now;
+    paint(active.map((on) => (on ? full : pale)));
+  };
+  paintActive(muscles.lines.map(() => true));
+  return {
+    name: 'muscles', label: 'Muscles', colour: muscleColour, object,
+    legend: 'Pale: may be at rest. Full colour: the recording shows that it acts (95 %).',
+    follow(displacement, face, frame) {
+      paintActive(activeLines(muscles, face, replay.timeS, frame));
+      follow(displacement);
+    },
+  };
 }
 
 /** Some muscles alone, to point at them; null where none has one of the names. */
 export function litMuscles(replay: Replay, names: ReadonlySet<string>): Overlay | null {
+  const colour = '#ffd60a';
   const lines = (replay.muscles?.lines ?? []).filter(({ name }) => names.has(name)).map(({ points }) => points);
-  return lines.length > 0 ? muscleOverlay(replay, lines, '#ffd60a', 4) : null;
+  if (lines.length === 0) return null;
+  const { object, follow, paint } = linesOver(replay, lines, 4);
+  paint(lines.map(() => new Color(colour)));
+  return { name: 'muscles', label: 'Muscles', colour, object, follow };
 }
 
 /** Removes an overlay and frees it. */
@@ -134,6 +179,6 @@ export function overlaysOf(replay: Replay): Overlay[] {
   if (replay.lipCut.length > 1) overlays.push(cutOverlay(replay));
   if (replay.driven.points.length > 0) overlays.push(drivenOverlay(replay));
   if (replay.held.length > 0) overlays.push(heldOverlay(replay));
-  if (replay.muscles?.lines.length) overlays.push(muscleOverlay(replay, replay.muscles.lines.map(({ points }) => points)));
+  if (replay.muscles?.lines.length) overlays.push(muscleOverlay(replay, replay.muscles));
   return overlays;
 }
