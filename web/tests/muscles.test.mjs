@@ -21,7 +21,7 @@ async function madeUp(change = () => {}) {
   const { html, data, floats } = await readPage(fixture('variants.html'));
   const time_s = data.motion.time_s;
   const course = (most) => time_s.map((_, f) => most * Math.sin((Math.PI * f) / (time_s.length - 1)));
-  const group = (name, left, right) => ({ name, left: course(left), right: course(right), sigma_left: 0.05, sigma_right: 0.07 });
+  const group = (name, left, right) => ({ name, left: course(left), right: course(right), sigma_left: 0.05, sigma_right: 0.07, note_left: '', note_right: '' });
   const points = floats(data.skin.points);
   const line = (side) => Array.from({ length: 9 }, (_, i) => [side * (0.02 + 0.002 * i), 0.03 - 0.006 * i, Math.max(...points)]);
   data.muscles = {
@@ -56,6 +56,23 @@ describe('a report of a face that muscles drive', () => {
     const told = await page.locator('.variants tbody tr').nth(1).locator('th small').allTextContents();
     assert.ok(told.includes('Left zygomaticus major at 30 %'), told.join('; '));
     await close();
+  });
+
+  test('a group whose activation is mostly the prior’s choice says so, and on which side', { skip: Boolean(given) }, async () => {
+    const note = "mostly the prior's choice";
+    const said = async (right, left) => {
+      const file = await madeUp(({ muscles }) => {
+        for (const group of muscles.groups) [group.note_right, group.note_left] = [right, left];
+      });
+      const { page, close } = await openPage(browser, file);
+      const text = await card(page).textContent();
+      await close();
+      return text;
+    };
+    assert.ok((await said(note, note)).includes(`On both sides it is ${note}.`));
+    assert.ok((await said(note, '')).includes(`On the right it is ${note}.`));
+    assert.ok((await said('', note)).includes(`On the left it is ${note}.`));
+    assert.ok(!(await said('', '')).includes('choice'));
   });
 
   for (const colorScheme of ['light', 'dark'])

@@ -92,6 +92,7 @@ json muscle_groups(const simulate::MuscleCourse& muscles) {
         muscles.group_activation.row(row).cwiseAbs().maxCoeff(&most);
       group[side] = row_of(muscles.group_activation, row);
       group[std::string("sigma_") + side] = muscles.group_sigma(row, most);
+      group[std::string("note_") + side] = simulate::group_words(muscles, row, most);
     };
     add("left", left);
     add("right", right);

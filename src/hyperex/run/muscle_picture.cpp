@@ -44,14 +44,23 @@ class AtPeak {
       : course_(course), sample_(most_active_sample(course)) {}
   double time_s() const { return course_.time_s[std::size_t(sample_)]; }
   double activation(const std::string& name) const { return at(course_.activation, name); }
+  /// Whether its 95 % interval leaves 0 out.
   bool known(const std::string& name) const {
     return simulate::differs_from_zero(activation(name), at(course_.sigma, name));
   }
+  bool mostly_prior(const std::string& name) const {
+    return !simulate::muscle_words(course_, row_of(name), sample_).empty();
+  }
 
  private:
+  /// Below 0: no such muscle.
+  Eigen::Index row_of(const std::string& name) const {
+    const auto found = std::find(course_.names.begin(), course_.names.end(), name);
+    return found == course_.names.end() ? -1 : found - course_.names.begin();
+  }
   double at(const Eigen::MatrixXd& course, const std::string& name) const {
-    const auto row = std::find(course_.names.begin(), course_.names.end(), name);
-    return row == course_.names.end() ? std::nan("") : course(row - course_.names.begin(), sample_);
+    const Eigen::Index row = row_of(name);
+    return row < 0 ? std::nan("") : course(row, sample_);
   }
   const simulate::MuscleCourse& course_;
   Eigen::Index sample_;
@@ -112,7 +121,8 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
   const render::TextStyle head{
       .size_px = 11, .colour = render::palette::faint_ink, .align = render::Align::right},
       known{.size_px = 12, .align = render::Align::right, .bold = true},
-      unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right};
+      unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right},
+      faint{.size_px = 11, .colour = render::palette::faint_ink};
   canvas.text(wide - 60, 14, "right", head);
   canvas.text(wide - 10, 14, "left", head);
   for (std::size_t m = 0; m < all.size(); ++m) {
@@ -122,8 +132,10 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
     for (const auto& [side, x] : {std::pair("_R", wide - 60), std::pair("_L", wide - 10)}) {
       const std::string name = all[m].name + side;
       canvas.text(x, y, shown(peak.activation(name)), peak.known(name) ? known : unknown);
+      if (peak.mostly_prior(name)) canvas.text(x + 1, y, "*", faint);
     }
   }
+  canvas.text(left - 6, height_px - 28, fmt::format("* {}", simulate::kMostlyPriorWords), faint);
   double x = left - 6;
   for (const char* branch : kBranches) {
     canvas.rectangle(x, height_px - 20, 10, 10, colour_of(branch));

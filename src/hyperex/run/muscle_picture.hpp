@@ -12,7 +12,8 @@ namespace hyperex::run {
 /// the skin at rest, from the front and from both sides. Each line begins at a numbered disc at the
 /// origin (for a ring, in its middle). Its colour is that of the branch of the facial nerve, and
 /// its width increases with the activation at the sample in which the sum of all activations is
-/// greatest. A list beside the picture gives the names and these activations on both sides.
+/// greatest. A list beside the picture gives the names and these activations on both sides, with a
+/// star where one is mostly the prior's choice.
 render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                            const simulate::MuscleCourse& course,
                            const muscles::MuscleTable& table = muscles::muscle_template());

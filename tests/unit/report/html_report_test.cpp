@@ -193,6 +193,8 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   muscles.group_activation << 0, 9, 9, 0, 0.5, 0.25, 0, -0.12345, -0.5;
   muscles.group_sigma.resize(3, 3);
   muscles.group_sigma << 7, 8, 9, 1, 2, 3, 4, 5, 6;
+  muscles.group_prior_sigma.resize(3, 3);
+  muscles.group_prior_sigma << 8, 9, 10, 9, 9, 9, 7, 7, 7;
   muscles.activation.resize(2, 3);
   muscles.activation << 0, 0.5, 0.25, 0, 0.1, -0.5;
   muscles.sigma.setConstant(2, 3, 0.2);
@@ -211,6 +213,8 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(group.at("right").dump(), "[0.0,-0.1235,-0.5]");
   EXPECT_EQ(group.at("sigma_left"), 2) << "where it acts most";
   EXPECT_EQ(group.at("sigma_right"), 6);
+  EXPECT_EQ(group.at("note_left"), "") << "2 of 9";
+  EXPECT_EQ(group.at("note_right"), "mostly the prior's choice") << "6 of 7";
   EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
   EXPECT_EQ(shown.at("lines")[0].at("latin"), "zygomaticus major");
   EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");

@@ -67,6 +67,27 @@ TEST(MusclePicture, AMuscleThatMayBeAtRestIsPale) {
   EXPECT_EQ(full(0.02), known) << "it is one or the other";
 }
 
+TEST(MusclePicture, AStarInTheListMarksWhatThePriorChose) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const auto draw = [&](double prior_sigma) {
+    simulate::MuscleCourse drawn = course(0.9, 0.9, 0.2);
+    drawn.prior_sigma.setConstant(2, 2, prior_sigma);
+    return draw_muscles(face.mesh, face.landmarks, drawn);
+  };
+  const render::Image determined = draw(0.3), chosen = draw(0.22);
+  ASSERT_EQ(determined.width, chosen.width);
+  int faces = 0, list = 0;
+  for (int y = 0; y < chosen.height; ++y)
+    for (int x = 0; x < chosen.width; ++x) {
+      const bool differs =
+          !std::equal(chosen.pixel(x, y), chosen.pixel(x, y) + 3, determined.pixel(x, y));
+      (x < 3 * 440 ? faces : list) += differs;
+    }
+  EXPECT_EQ(faces, 0);
+  EXPECT_GT(list, 10);
+  EXPECT_LT(list, 400) << "two stars";
+}
+
 TEST(MusclePicture, HasADiscForEachMuscle) {
   const muscles::test::AFace& face = muscles::test::a_face();
   const render::Image image = draw_muscles(face.mesh, face.landmarks, course(0, 0));

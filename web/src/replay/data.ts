@@ -54,6 +54,9 @@ export interface MuscleGroup {
   /** 1 sigma of the activation where the group acts most. */
   sigmaLeft: number;
   sigmaRight: number;
+  /** "mostly the prior's choice" where that is so there; else empty. */
+  noteLeft: string;
+  noteRight: string;
 }
 
 /** Where muscles drive. */
@@ -142,7 +145,9 @@ const tissueOf = (maps: SkinMapData[] | undefined, block: Block): SkinMap[] => (
 const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles => ({
   timeS: time_s,
   fewPoints: few_points,
-  groups: groups.map(({ sigma_left, sigma_right, ...group }) => ({ ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right })),
+  groups: groups.map(({ sigma_left, sigma_right, note_left, note_right, ...group }) => ({
+    ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right, noteLeft: note_left ?? '', noteRight: note_right ?? '',
+  })),
   lines,
 });
 

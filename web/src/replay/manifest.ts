@@ -43,8 +43,11 @@ export interface MuscleData {
   time_s: number[];
   /** Few points drive, so that the prior decides most activations. */
   few_points: boolean;
-  /** Sums over muscles that points can hardly distinguish; sigma: where the group acts most. */
-  groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
+  /** Sums over muscles that points can hardly distinguish. Where the group acts most: sigma, and a note on what the
+   *  prior decides ("": none). */
+  groups: {
+    name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number; note_left?: string; note_right?: string;
+  }[];
   /** From origin to insertion, at rest. */
   lines: { name: string; latin: string; points: [number, number, number][] }[];
   /** Of each line, a character per sample: 1 where the activation differs from 0 (95 %), else 0. "": not known. */
