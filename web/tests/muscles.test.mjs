@@ -161,6 +161,27 @@ describe('a report of a face that muscles drive', () => {
     assert.ok(full > 100 && pale < 0.1 * full, `${full} and ${pale}`);
   });
 
+  test('a muscle that ends along the fold has a sheet, too', { skip: Boolean(given) }, async () => {
+    /** Share of the picture that the layer changes. */
+    const covered = async (spread) => {
+      const file = await madeUp(({ muscles: { lines } }) => {
+        const [tip, z] = [lines[0].points[0], lines[0].points[0][2]];
+        if (spread) lines[0].sheet = [tip, [0.005, -0.01, z], [0.02, -0.02, z], [0.03, -0.03, z]];
+      });
+      const { page, complaints, close } = await openPage(browser, file, { pixels: true });
+      const without = await look(page);
+      await page.locator('#show-overlays').click();
+      await page.locator('[data-overlay="muscles"]').click();
+      await page.keyboard.press('Escape');
+      const share = await changedShare(without, await look(page));
+      assert.deepEqual(complaints, []);
+      await close();
+      return share;
+    };
+    const [lines, both] = [await covered(false), await covered(true)];
+    assert.ok(both > 1.5 * lines, `${lines} and ${both}`);
+  });
+
   test('curves of a variant, and of two faces', async () => {
     const { page, complaints, close } = await openPage(browser, report);
     const { data } = await readPage(report);

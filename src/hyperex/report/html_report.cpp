@@ -189,9 +189,11 @@ json point_words_of(const ReportInput& input) {
 json muscle_section(const ReportInput& input) {
   const simulate::MuscleCourse& muscles = input.performance.muscles;
   json lines = json::array();
-  for (const ReportMuscle& muscle : input.muscles)
+  for (const ReportMuscle& muscle : input.muscles) {
     lines.push_back(
         {{"name", muscle.name}, {"latin", muscle.latin}, {"points", points_json(muscle.line)}});
+    if (muscle.sheet.rows() > 0) lines.back()["sheet"] = points_json(muscle.sheet);
+  }
   return {
       {"time_s", muscles.time_s},
       {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},

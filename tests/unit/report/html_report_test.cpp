@@ -200,7 +200,9 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   muscles.sigma.setConstant(2, 3, 0.2);
   Points line(2, 3);
   line << 1, 2, 3, 4, 5, 6;
-  input.muscles = {{"zyg_major_L", "zygomaticus major", line},
+  Points sheet(3, 3);
+  sheet << 7, 8, 9, 1, 1, 1, 2, 2, 2;
+  input.muscles = {{"zyg_major_L", "zygomaticus major", line, sheet},
                    {"zyg_major_R", "zygomaticus major", line},
                    {"graft_L", "graft", line}};
   const json shown = manifest().at("muscles");
@@ -218,6 +220,8 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
   EXPECT_EQ(shown.at("lines")[0].at("latin"), "zygomaticus major");
   EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
+  EXPECT_EQ(shown.at("lines")[0].at("sheet").dump(), "[[7.0,8.0,9.0],[1.0,1.0,1.0],[2.0,2.0,2.0]]");
+  EXPECT_FALSE(shown.at("lines")[1].contains("sheet"));
   EXPECT_EQ(shown.at("active"), json({"010", "001", ""}))
       << "0.5 is 2.5 standard deviations from 0, 0.25 is 1.25";
   const std::vector<PointsF> none(face.performance.skin_displacement_m.size(),

@@ -64,7 +64,8 @@ export interface Muscles {
   timeS: number[];
   fewPoints: boolean;
   groups: MuscleGroup[];
-  lines: { name: string; latin: string; points: Vec3[] }[];
+  /** `sheet`: a fan, its tip first. */
+  lines: { name: string; latin: string; points: Vec3[]; sheet?: Vec3[] }[];
 }
 
 /** A hole of the skin. */

@@ -48,8 +48,9 @@ export interface MuscleData {
   groups: {
     name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number; note_left?: string; note_right?: string;
   }[];
-  /** From origin to insertion, at rest. */
-  lines: { name: string; latin: string; points: [number, number, number][] }[];
+  /** From origin to insertion, at rest. A muscle that ends along the fold from nose to mouth has a sheet, a fan: its tip,
+   *  then points along the fold. */
+  lines: { name: string; latin: string; points: [number, number, number][]; sheet?: [number, number, number][] }[];
   /** Of each line, a character per sample: 1 where the activation differs from 0 (95 %), else 0. "": not known. */
   active?: string[];
 }

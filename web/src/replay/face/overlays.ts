@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What can be shown over the skin: the cut along the lips, driven points, those on bone and border, muscles.
 import {
-  Color, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, Object3D, SphereGeometry,
+  BufferAttribute, BufferGeometry, Color, DoubleSide, Group, InstancedMesh, Matrix4, Mesh, MeshBasicMaterial, Object3D,
+  SphereGeometry,
 } from 'three';
 import { Line2 } from 'three/examples/jsm/lines/Line2.js';
 import { LineGeometry } from 'three/examples/jsm/lines/LineGeometry.js';
@@ -98,31 +99,71 @@ const muscleColour = '#b5179e';
 /** 0.7 of the way to white, as in the picture of the muscles (src/hyperex/run/muscle_picture.cpp). */
 const paleMuscle = '#e9b9e2';
 
-/** Lines that follow the skin. */
-interface Lines {
-  object: LineSegments2;
-  /** Each point follows the nearest skin, though deep muscles move less. So it shows their course, not their stretch. */
+/** Muscles that follow the skin. */
+interface Carried {
+  object: Object3D;
   follow(displacement: Float32Array): void;
-  /** A colour for each line. */
+  /** A colour for each muscle. */
   paint(colours: Color[]): void;
 }
 
-function linesOver(replay: Replay, lines: Vec3[][], linewidth: number): Lines {
+/** Moves places (into `flat`, x y z each) with the skin nearest to each, though deep muscles move less. So it shows their
+ *  course, not their stretch. */
+function carrier(replay: Replay, places: Vec3[], flat: Float32Array): (displacement: Float32Array) => void {
+  let vertex: number[] | null = null; // found when first shown
+  return (d) => {
+    vertex ??= places.map((p) => nearestVertex(replay.points, p).vertex);
+    places.forEach((p, i) => {
+      for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex![i] + k];
+    });
+  };
+}
+
+/** Fans, of each its tip first; empty for a muscle without. */
+function fansOver(replay: Replay, fans: Vec3[][]): Carried {
+  const points = fans.flat();
+  const flat = new Float32Array(points.flat());
+  const geometry = new BufferGeometry();
+  const position = new BufferAttribute(flat, 3);
+  const colour = new BufferAttribute(new Float32Array(flat.length), 3);
+  geometry.setAttribute('position', position);
+  geometry.setAttribute('color', colour);
+  let first = 0;
+  geometry.setIndex(fans.flatMap((fan) => {
+    const tip = first;
+    first += fan.length;
+    return fan.slice(2).flatMap((_, i) => [tip, tip + i + 1, tip + i + 2]);
+  }));
+  const object = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, opacity: 0.3, ...drawnLast }));
+  object.frustumCulled = false;
+  object.renderOrder = 2;
+  const carry = carrier(replay, points, flat);
+  return {
+    object,
+    follow(d) {
+      carry(d);
+      position.needsUpdate = true;
+    },
+    paint(colours) {
+      colour.copyArray(fans.flatMap((fan, i) => fan.flatMap(() => colours[i].toArray())));
+      colour.needsUpdate = true;
+    },
+  };
+}
+
+function linesOver(replay: Replay, lines: Vec3[][], linewidth: number): Carried {
   const ends = lines.flatMap((line) => line.slice(1).flatMap((p, i) => [line[i], p]));
   const flat = new Float32Array(ends.flat());
-  let vertex: number[] | null = null; // found when first shown
   const geometry = new LineSegmentsGeometry();
   geometry.setPositions(flat);
   const object = new LineSegments2(geometry, new LineMaterial({ vertexColors: true, linewidth, opacity: 0.85, ...drawnLast }));
   object.frustumCulled = false;
   object.renderOrder = 2;
+  const carry = carrier(replay, ends, flat);
   return {
     object,
     follow(d) {
-      vertex ??= ends.map((p) => nearestVertex(replay.points, p).vertex);
-      ends.forEach((p, i) => {
-        for (let k = 0; k < 3; ++k) flat[3 * i + k] = p[k] + d[3 * vertex![i] + k];
-      });
+      carry(d);
       geometry.setPositions(flat);
     },
     paint(colours) {
@@ -132,24 +173,27 @@ function linesOver(replay: Replay, lines: Vec3[][], linewidth: number): Lines {
   };
 }
 
-/** From origin to insertion. Pale: what may be at rest in the frame shown. */
+/** Lines from origin to insertion, and sheets. Pale: what may be at rest in the frame shown. */
 function muscleOverlay(replay: Replay, muscles: Muscles): Overlay {
-  const { object, follow, paint } = linesOver(replay, muscles.lines.map(({ points }) => points), 2.5);
+  const { lines } = muscles;
+  const parts = [linesOver(replay, lines.map(({ points }) => points), 2.5)];
+  if (lines.some(({ sheet }) => sheet)) parts.unshift(fansOver(replay, lines.map(({ sheet }) => sheet ?? [])));
+  const object = new Group().add(...parts.map((part) => part.object));
   const [full, pale] = [new Color(muscleColour), new Color(paleMuscle)];
   let painted = '';
   const paintActive = (active: boolean[]) => {
     const now = active.map(Number).join('');
     if (now === painted) return;
     painted = now;
-    paint(active.map((on) => (on ? full : pale)));
+    for (const part of parts) part.paint(active.map((on) => (on ? full : pale)));
   };
-  paintActive(muscles.lines.map(() => true));
+  paintActive(lines.map(() => true));
   return {
     name: 'muscles', label: 'Muscles', colour: muscleColour, object,
     legend: 'Pale: may be at rest. Full colour: the recording shows that it acts (95 %).',
     follow(displacement, face, frame) {
       paintActive(activeLines(muscles, face, replay.timeS, frame));
-      follow(displacement);
+      for (const part of parts) part.follow(displacement);
     },
   };
 }
