@@ -11,10 +11,12 @@
 #include "arrays.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/gaze.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 
 namespace hyperex::python {
 namespace {
 
+using simulate::MuscleCourse;
 using simulate::SimulationReport;
 
 py::object skin_displacement(RunResult& self) {
@@ -57,6 +59,53 @@ TriMesh skin_at(const RunResult& self, py::ssize_t frame) {
   const simulate::Performance& p = self.performance();
   return {p.skin_rest.points + frame_in(p.skin_displacement_m, frame).cast<double>(),
           p.skin_rest.triangles};
+}
+
+/// Names of the muscles of which `holds(muscle, sample)`. A sample below 0 counts from the end.
+template <class Holds>
+std::vector<std::string> muscles_in(const MuscleCourse& course, py::ssize_t sample, Holds holds) {
+  const auto count = static_cast<py::ssize_t>(course.time_s.size());
+  if (sample < -count || sample >= count)
+    throw py::index_error(fmt::format("sample {} of {}", sample, count));
+  std::vector<std::string> names;
+  for (std::size_t m = 0; m < course.names.size(); ++m)
+    if (holds(Eigen::Index(m), Eigen::Index(sample < 0 ? sample + count : sample)))
+      names.push_back(course.names[m]);
+  return names;
+}
+
+void bind_muscles(py::module_& m) {
+  py::class_<MuscleCourse>(m, "MuscleCourse", "What the muscles do that move a face, over time.")
+      .def_readonly("names", &MuscleCourse::names,
+                    "\"zyg_major_L\" and so on; empty where no muscles drive.")
+      .def_readonly("time_s", &MuscleCourse::time_s, "Of the samples.")
+      .def_readonly("activation", &MuscleCourse::activation,
+                    "names x samples; at 1 a muscle moves some part of the skin by 10 mm.")
+      .def_readonly("sigma", &MuscleCourse::sigma,
+                    "Its standard deviation, from the points' errors and the prior.")
+      .def_readonly("prior_sigma", &MuscleCourse::prior_sigma, "The same before a point is seen.")
+      .def(
+          "different_from_zero",
+          [](const MuscleCourse& self, py::ssize_t sample) {
+            return muscles_in(self, sample, [&](Eigen::Index m, Eigen::Index k) {
+              return simulate::differs_from_zero(self.activation(m, k), self.sigma(m, k));
+            });
+          },
+          "sample"_a, "Names of the muscles whose 95 % interval leaves 0 out.")
+      .def(
+          "mostly_prior",
+          [](const MuscleCourse& self, py::ssize_t sample) {
+            return muscles_in(self, sample, [&](Eigen::Index m, Eigen::Index k) {
+              return !simulate::muscle_words(self, m, k).empty();
+            });
+          },
+          "sample"_a,
+          "Names of the muscles whose activation is mostly the prior's choice: the recording "
+          "determines less than a third of its variance.")
+      .def("__repr__", [](const MuscleCourse& self) {
+        return fmt::format("<hyperex.MuscleCourse of {} muscles, {} samples>", self.names.size(),
+                           self.time_s.size());
+      });
 }
 
 void bind_report(py::module_& m) {
@@ -163,6 +212,7 @@ void bind_arrays(py::class_<RunResult>& run) {
 
 void bind_performance(py::module_& m) {
   bind_report(m);
+  bind_muscles(m);
   py::class_<RunResult> run(m, "Performance", "A face in motion, in the scan's frame, metres.");
   bind_arrays(run);
   run.def_property_readonly(
@@ -181,6 +231,10 @@ void bind_performance(py::module_& m) {
             return self.performance().landmarks;
           },
           "A Motion of the landmarks, at the frame times.")
+      .def_property_readonly(
+          "muscles",
+          [](const RunResult& self) -> const MuscleCourse& { return self.performance().muscles; },
+          "A MuscleCourse; without names where no muscles drive.")
       .def_property_readonly("driven_names",
                              [](const RunResult& self) { return self.performance().driven_names; })
       .def_property_readonly(

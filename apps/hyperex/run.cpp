@@ -14,6 +14,7 @@
 #include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
+#include "hyperex/run/activations.hpp"
 #include "hyperex/run/corner_words.hpp"
 #include "hyperex/run/expected_error_words.hpp"
 #include "hyperex/run/run_scene.hpp"
@@ -65,13 +66,14 @@ void run(const RunOptions& options) {
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips at most {:.1f} mm apart, {:.1f} s "
       "in all\n"
-      "{}{}{}{}{}{}{}"
+      "{}{}{}{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
       summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
       run::rescaled_line(summary), run::variant_lines(summary), run::surgery_lines(summary),
-      run::expected_error_line(summary), budget_lines(summary), printable(options.out->string()));
+      run::expected_error_line(summary), run::activations_line(summary), budget_lines(summary),
+      printable(options.out->string()));
   const std::pair<const char*, const char*> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

@@ -12,6 +12,7 @@
 #include "hyperex/session/remarks_json.hpp"
 #include "hyperex/session/same_face.hpp"
 #include "hyperex/session/variants.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 #include "hyperex/tissue/mesh/skin_depth.hpp"
 #include "live.hpp"
 
@@ -138,7 +139,13 @@ json OpenFace::activations(report::BinaryBlock& block) const {
   json faces = json::array({rows(base)});
   for (const session::VariantRun& run : session_.variants())
     faces.push_back(rows(run.simulation.performance.muscles));
-  return {{"names", base.names}, {"time_s", base.time_s}, {"faces", faces}};
+  json notes = json::array();
+  for (Eigen::Index m = 0; m < base.activation.rows(); ++m) {
+    Eigen::Index most = 0;
+    base.activation.row(m).cwiseAbs().maxCoeff(&most);
+    notes.push_back(simulate::muscle_words(base, m, most));
+  }
+  return {{"names", base.names}, {"time_s", base.time_s}, {"faces", faces}, {"notes", notes}};
 }
 
 }  // namespace hyperex::studio

@@ -165,6 +165,7 @@ class Forces(unittest.TestCase):
         simulator.set_drive(simulator.options.drive.replace(by="muscles"))
         base = simulator.run()
         self.assertLess(base.report.driven_off_mm, 0.5)
+        self.assertEqual(small_simulator().run().muscles.names, [])
         simulator.hold_load()
         weak = hyperex.MuscleOptions(gains={"side_R": 0.0})
         simulator.set_options(simulator.options.replace(muscles=weak))
@@ -172,6 +173,27 @@ class Forces(unittest.TestCase):
         peak = base.peak_frame
         change = simulator.run().skin_displacement_m[peak] - base.skin_displacement_m[peak]
         self.assertGreater(np.abs(change).max(), 1e-4)
+
+    def test_which_activations_the_recording_determines(self):
+        simulator = small_simulator()
+        simulator.set_drive(simulator.options.drive.replace(by="muscles"))
+        run = simulator.run()
+        muscles = run.muscles
+        shape = (len(muscles.names), len(muscles.time_s))
+        for array in (muscles.activation, muscles.sigma, muscles.prior_sigma):
+            self.assertEqual(array.shape, shape)
+        self.assertTrue((muscles.sigma <= muscles.prior_sigma * (1 + 1e-9)).all())
+        share = 1 - (muscles.sigma / muscles.prior_sigma) ** 2
+        most = int(np.abs(muscles.activation).sum(axis=0).argmax())
+        of_prior = [n for n, s in zip(muscles.names, share[:, most]) if s < 1 / 3]
+        self.assertEqual(muscles.mostly_prior(most), of_prior)
+        self.assertTrue(0 < len(of_prior) < shape[0], "the points see some muscles and not all")
+        self.assertEqual(muscles.different_from_zero(most),
+                         [n for n, a, s in zip(muscles.names, muscles.activation[:, most],
+                                               muscles.sigma[:, most]) if abs(a) > 1.96 * s])
+        self.assertEqual(muscles.mostly_prior(-1), muscles.mostly_prior(shape[1] - 1))
+        with self.assertRaises(IndexError):
+            muscles.mostly_prior(shape[1])
 
     def test_forces_found_anew_are_warned_of(self):
         simulator = small_simulator()

@@ -22,23 +22,19 @@ constexpr int kPieces = 40;
 /// them. Measured on the groove of a real smile; the line agrees with it to 2 mm (docs/muscles.md).
 constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
 
-/// The part of a line between the shares `from` and `to` of its length. The points of the line are
-/// equally spaced.
-MuscleLine part_of(const Points& line, double from, double to) {
-  const auto at = [&](double share) {
-    const double x = share * double(line.rows() - 1);
-    const Eigen::Index i = std::min<Eigen::Index>(Eigen::Index(x), line.rows() - 2);
-    return Vec3((1 - (x - double(i))) * line.row(i) + (x - double(i)) * line.row(i + 1));
-  };
-  MuscleLine out;
-  out.line.resize(kPieces + 1, 3);
-  for (int k = 0; k <= kPieces; ++k)
-    out.line.row(k) = at(from + (to - from) * k / kPieces).transpose();
-  out.arc = arc_of(out.line);
-  return out;
-}
-
 }  // namespace
+
+Points part_of_fold(const Points& fold, const TemplateMuscle& muscle) {
+  const double from = muscle.fold_from, to = muscle.fold_to;
+  const auto at = [&](double share) {
+    const double x = share * double(fold.rows() - 1);
+    const Eigen::Index i = std::min<Eigen::Index>(Eigen::Index(x), fold.rows() - 2);
+    return Vec3((1 - (x - double(i))) * fold.row(i) + (x - double(i)) * fold.row(i + 1));
+  };
+  Points part(kPieces + 1, 3);
+  for (int k = 0; k <= kPieces; ++k) part.row(k) = at(from + (to - from) * k / kPieces).transpose();
+  return part;
+}
 
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left) {
   const face::FaceFrame frame = face::face_frame(landmarks);
@@ -63,7 +59,9 @@ Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle, 
   const tissue::VolumeMesh& volume = mesh.volume;
   Eigen::VectorXd force = Eigen::VectorXd::Zero(3 * volume.nodes.rows());
   if (!muscle.ends_in_fold()) return force;
-  const MuscleLine part = part_of(fold, muscle.fold_from, muscle.fold_to);
+  MuscleLine part;
+  part.line = part_of_fold(fold, muscle);
+  part.arc = arc_of(part.line);
   const double width = 1e-3 * shape.width_mm * line.scale;
   const double inwards = shape.inwards_deg * std::numbers::pi / 180;
   const Vec3 origin = line.line.row(0);

@@ -10,8 +10,12 @@ namespace hyperex::muscles {
 /// the mouth. n x 3, m, equally spaced along the line.
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left);
 
+/// The part of a nasolabial_fold() along which a muscle ends in the skin
+/// (TemplateMuscle::fold_from, fold_to). m x 3, m, from the nose on, equally spaced.
+Points part_of_fold(const Points& fold, const TemplateMuscle& muscle);
+
 /// Nodal forces (3 |nodes|, N) of a muscle whose fibres end in the skin along a part of the fold
-/// (TemplateMuscle::fold_from, fold_to). `fold`: the nasolabial_fold() of the muscle's side. The
+/// (part_of_fold()). `fold`: the nasolabial_fold() of the muscle's side. The
 /// force per area of skin at the distance d from that part of the line is
 ///   exp(-(d / width)^2) (cos(a) t - sin(a) n),
 /// where t is the direction in the skin towards the muscle's origin, n the outward normal, a the

@@ -85,6 +85,19 @@ void Canvas::rectangle(double x, double y, double width_px, double height_px,
   cairo_fill(impl_->cairo);
 }
 
+void Canvas::fill(const std::vector<std::array<Eigen::Vector2d, 4>>& cells, const Colour& colour,
+                  double opacity) {
+  cairo_set_source_rgba(impl_->cairo, colour.r, colour.g, colour.b, opacity);
+  cairo_new_path(impl_->cairo);
+  for (const auto& corners : cells) {
+    cairo_move_to(impl_->cairo, corners[0].x(), corners[0].y());
+    for (std::size_t k = 1; k < corners.size(); ++k)
+      cairo_line_to(impl_->cairo, corners[k].x(), corners[k].y());
+    cairo_close_path(impl_->cairo);
+  }
+  cairo_fill(impl_->cairo);
+}
+
 double Canvas::text_width(const std::string& utf8, const TextStyle& style) const {
   impl_->font(style);
   cairo_text_extents_t extents;

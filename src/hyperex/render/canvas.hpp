@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <Eigen/Core>
+#include <array>
 #include <memory>
 #include <string>
 #include <vector>
@@ -42,6 +44,10 @@ class Canvas {
   void line(double x0, double y0, double x1, double y1, const Colour& colour, double width_px = 1);
   void disc(double x, double y, double radius_px, const Colour& colour);
   void rectangle(double x, double y, double width_px, double height_px, const Colour& colour);
+  /// Fills all of these quadrilaterals (corners in order) at once, so that no seam shows between
+  /// neighbours. `opacity`: 0 to 1.
+  void fill(const std::vector<std::array<Eigen::Vector2d, 4>>& cells, const Colour& colour,
+            double opacity);
   /// `y` is the base line. Returns the width of the text in pixels.
   double text(double x, double y, const std::string& utf8, const TextStyle& style = {});
   double text_width(const std::string& utf8, const TextStyle& style = {}) const;

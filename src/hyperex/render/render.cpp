@@ -322,6 +322,33 @@ void draw_line(const Polyline& line, const DepthPicture& depth, const Camera& ca
   }
 }
 
+// Draws the visible parts of a fan, tested in pieces of about four pixels along it.
+void draw_fan(const Fan& fan, const DepthPicture& depth, const Camera& camera,
+              const RenderOptions& options, Canvas& canvas) {
+  const Eigen::Matrix3d camera_from_world = camera.axes();
+  const double px_per_m = options.height_px / camera.height_m;
+  std::vector<std::array<Eigen::Vector2d, 4>> visible;
+  for (Eigen::Index i = 1; i + 1 < fan.points.rows(); ++i) {
+    const Vec3 tip = fan.points.row(0), a = fan.points.row(i), b = fan.points.row(i + 1);
+    const double length_m = std::max((a - tip).norm(), (b - tip).norm());
+    const int pieces = std::clamp(static_cast<int>(length_m * px_per_m / 4), 1, 1000);
+    for (int k = 0; k < pieces; ++k) {
+      const double from = double(k) / pieces, to = double(k + 1) / pieces;
+      const std::array<Vec3, 4> corners{tip + from * (a - tip), tip + to * (a - tip),
+                                        tip + to * (b - tip), tip + from * (b - tip)};
+      const Vec3 middle = (corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+      if (depth.hides(camera_from_world * (middle - camera.target), options.overlay_bias_m))
+        continue;
+      auto& cell = visible.emplace_back();
+      for (std::size_t c = 0; c < corners.size(); ++c) {
+        const Projected p = project(camera, options.width_px, options.height_px, corners[c]);
+        cell[c] = {p.x, p.y};
+      }
+    }
+  }
+  canvas.fill(visible, fan.colour, fan.opacity);
+}
+
 void draw_marker(const Marker& marker, const DepthPicture& depth, const Camera& camera,
                  const RenderOptions& options, Canvas& canvas) {
   const Vec3 local = camera.axes() * (marker.at - camera.target);
@@ -338,7 +365,7 @@ void draw_marker(const Marker& marker, const DepthPicture& depth, const Camera& 
 
 Image render(const std::vector<Surface>& surfaces, const Camera& camera,
              const RenderOptions& options, const std::vector<Marker>& markers,
-             const std::vector<Polyline>& lines) {
+             const std::vector<Polyline>& lines, const std::vector<Fan>& fans) {
   if (options.width_px < 1 || options.height_px < 1 || options.samples < 1)
     throw std::invalid_argument("render: a picture needs at least one pixel and one sample");
   if (std::max(options.width_px, options.height_px) > Raster::most_samples / options.samples)
@@ -347,12 +374,13 @@ Image render(const std::vector<Surface>& surfaces, const Camera& camera,
   for (const Surface& surface : surfaces) prepared.emplace_back(surface, camera.axes());
   Image image(options.width_px, options.height_px, options.background);
   std::optional<DepthPicture> depth;
-  if (!markers.empty() || !lines.empty())
+  if (!markers.empty() || !lines.empty() || !fans.empty())
     depth.emplace(options.samples * options.width_px, options.samples * options.height_px,
                   camera.height_m / options.height_px / options.samples);
   paint(prepared, surfaces, camera, options, image, depth ? &*depth : nullptr);
   if (!depth) return image;
   Canvas canvas(image);
+  for (const Fan& fan : fans) draw_fan(fan, *depth, camera, options, canvas);
   for (const Polyline& line : lines) draw_line(line, *depth, camera, options, canvas);
   for (const Marker& marker : markers) draw_marker(marker, *depth, camera, options, canvas);
   return canvas.image();

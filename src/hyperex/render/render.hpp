@@ -42,11 +42,19 @@ struct Polyline {
   bool closed = false;
 };
 
+/// A translucent sheet of triangles, each between the first point and two neighbours of the others.
+/// Its hidden parts are left out; lines and markers lie over it.
+struct Fan {
+  Points points;  ///< at least three rows, else nothing is drawn
+  Colour colour = palette::cut;
+  double opacity = 0.3;  ///< 0 to 1
+};
+
 struct RenderOptions {
   int width_px = 480, height_px = 600;
   int samples = 2;  ///< rays per pixel along each axis, >= 1
   Colour background = palette::background;
-  /// A marker or line is drawn if it lies less than this behind a surface, along the view, m.
+  /// A marker, line or fan is drawn if it lies less than this behind a surface, along the view, m.
   double overlay_bias_m = 1e-3;
   /// A marker that lies deeper, but less than this behind a surface, is drawn hollow, m.
   double hollow_within_m = 5e-3;
@@ -55,12 +63,12 @@ struct RenderOptions {
 };
 
 /// Draws the surfaces with parallel rays under two lamps fixed to the camera, back faces darker,
-/// then draws markers and lines over them. The picture does not depend on the number of threads.
-/// Throws std::invalid_argument where sizes do not agree (scalar or colours and vertices; an index
-/// out of range; no pixels).
+/// then draws fans, lines and markers over them. The picture does not depend on the number of
+/// threads. Throws std::invalid_argument where sizes do not agree (scalar or colours and vertices;
+/// an index out of range; no pixels).
 Image render(const std::vector<Surface>& surfaces, const Camera& camera,
              const RenderOptions& options = {}, const std::vector<Marker>& markers = {},
-             const std::vector<Polyline>& lines = {});
+             const std::vector<Polyline>& lines = {}, const std::vector<Fan>& fans = {});
 
 /// Where the ray through a position in the picture first meets a surface.
 struct Picked {

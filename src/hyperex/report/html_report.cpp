@@ -10,6 +10,7 @@
 #include "hyperex/report/geometry_sections.hpp"
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::report {
@@ -91,6 +92,7 @@ json muscle_groups(const simulate::MuscleCourse& muscles) {
         muscles.group_activation.row(row).cwiseAbs().maxCoeff(&most);
       group[side] = row_of(muscles.group_activation, row);
       group[std::string("sigma_") + side] = muscles.group_sigma(row, most);
+      group[std::string("note_") + side] = simulate::group_words(muscles, row, most);
     };
     add("left", left);
     add("right", right);
@@ -106,6 +108,27 @@ json variant_muscles(const std::vector<std::string>& groups, const Eigen::Matrix
   for (const auto& [left, right] : pairs_of(groups))
     out.push_back({{"left", row_of(activation, left)}, {"right", row_of(activation, right)}});
   return out;
+}
+
+/// For each line a text with one character per sample of the scene's own muscles: 1 where the
+/// recording distinguishes the muscle's activation from 0, else 0. The text is empty for a muscle
+/// that `course` lacks, and there are no texts where `course` has other samples.
+json active_muscles(const ReportInput& input, const simulate::MuscleCourse& course) {
+  json texts = json::array();
+  const auto samples = Index(input.performance.muscles.time_s.size());
+  if (course.time_s != input.performance.muscles.time_s) return texts;
+  if (course.activation.cols() != samples || course.sigma.cols() != samples) return texts;
+  for (const ReportMuscle& line : input.muscles) {
+    const auto found = std::find(course.names.begin(), course.names.end(), line.name);
+    std::string text;
+    for (Index k = 0; found != course.names.end() && k < samples; ++k) {
+      const auto row = Index(found - course.names.begin());
+      text +=
+          simulate::differs_from_zero(course.activation(row, k), course.sigma(row, k)) ? '1' : '0';
+    }
+    texts.push_back(text);
+  }
+  return texts;
 }
 
 json variants_section(const ReportInput& input, BinaryBlock& block) {
@@ -132,6 +155,7 @@ json variants_section(const ReportInput& input, BinaryBlock& block) {
          {"symmetry", symmetry_section(variant.symmetry)},
          {"landmarks", positions_of(variant.performance.landmarks, block)},
          {"muscles", variant_muscles(input.performance.muscles.groups, variant.group_activation)},
+         {"active_muscles", active_muscles(input, variant.performance.muscles)},
          {"tissue", tissue_section(variant.tissue, block)}});
   }
   return section;
@@ -165,14 +189,17 @@ json point_words_of(const ReportInput& input) {
 json muscle_section(const ReportInput& input) {
   const simulate::MuscleCourse& muscles = input.performance.muscles;
   json lines = json::array();
-  for (const ReportMuscle& muscle : input.muscles)
+  for (const ReportMuscle& muscle : input.muscles) {
     lines.push_back(
         {{"name", muscle.name}, {"latin", muscle.latin}, {"points", points_json(muscle.line)}});
+    if (muscle.sheet.rows() > 0) lines.back()["sheet"] = points_json(muscle.sheet);
+  }
   return {
       {"time_s", muscles.time_s},
       {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},
       {"groups", muscle_groups(muscles)},
-      {"lines", lines}};
+      {"lines", lines},
+      {"active", active_muscles(input, muscles)}};
 }
 
 json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {

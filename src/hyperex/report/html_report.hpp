@@ -46,6 +46,7 @@ struct ReportMuscle {
   std::string name;   ///< "zyg_major_L"
   std::string latin;  ///< without side
   Points line;        ///< n x 3, from origin to insertion, at rest
+  Points sheet = {};  ///< as muscles::MuscleShape::sheet, at rest; no rows: none
 };
 
 /// The contents of the page. References must outlive the call.

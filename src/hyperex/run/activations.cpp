@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/run/activations.hpp"
 
+#include <fmt/format.h>
+
 #include <numeric>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "hyperex/io/csv.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 #include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::run {
@@ -29,6 +32,33 @@ std::vector<std::size_t> right_first(const std::vector<std::string>& names) {
       std::swap(order[m], order[m + 1]);
   }
   return order;
+}
+
+void add_group(const simulate::MuscleCourse& muscles, Eigen::Index row, Eigen::Index at,
+               nlohmann::ordered_json& groups) {
+  const std::string& name = muscles.groups[std::size_t(row)];
+  const std::string side = name.substr(name.size() - 1);
+  auto& group = groups[name.substr(0, name.size() - 2)];
+  group["activation"][side] = muscles.group_activation(row, at);
+  group["sigma"][side] = muscles.group_sigma(row, at);
+  group["determined"][side] =
+      simulate::determined_share(muscles.group_sigma(row, at), muscles.group_prior_sigma(row, at));
+  if (std::string words = simulate::group_words(muscles, row, at); !words.empty())
+    group["note"][side] = std::move(words);
+}
+
+void add_muscles(const simulate::MuscleCourse& muscles, Eigen::Index at,
+                 nlohmann::ordered_json& json) {
+  auto active = nlohmann::ordered_json::array(), of_prior = active;
+  for (const std::size_t m : right_first(muscles.names)) {
+    const auto row = Eigen::Index(m);
+    if (simulate::differs_from_zero(muscles.activation(row, at), muscles.sigma(row, at)))
+      active.push_back(muscles.names[m]);
+    if (!simulate::muscle_words(muscles, row, at).empty()) of_prior.push_back(muscles.names[m]);
+  }
+  json["count"] = muscles.names.size();
+  json["differ_from_zero"] = std::move(active);
+  json["mostly_prior"] = std::move(of_prior);
 }
 
 }  // namespace
@@ -60,13 +90,9 @@ nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
   const Eigen::Index at = most_active_sample(muscles);
   json["time_s"] = muscles.time_s[std::size_t(at)];
   json["jaw_opening_deg"] = muscles.jaw_opening_deg[at];
-  for (std::size_t g = 0; g < muscles.groups.size(); ++g) {
-    const std::string& name = muscles.groups[g];
-    const auto row = static_cast<Eigen::Index>(g);
-    auto& group = json["groups"][name.substr(0, name.size() - 2)];
-    group["activation"][name.substr(name.size() - 1)] = muscles.group_activation(row, at);
-    group["sigma"][name.substr(name.size() - 1)] = muscles.group_sigma(row, at);
-  }
+  for (std::size_t g = 0; g < muscles.groups.size(); ++g)
+    add_group(muscles, Eigen::Index(g), at, json["groups"]);
+  add_muscles(muscles, at, json);
   json["reading"] =
       driven_points <= std::size_t(simulate::kFewPoints)
           ? "so few points leave most of an activation to the prior: a means of moving the face, "
@@ -74,6 +100,16 @@ nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
           : "sums over muscles that points on the skin can hardly distinguish; sigma includes the "
             "points' errors and the prior, not wrong lines or tissue";
   return json;
+}
+
+std::string activations_line(const nlohmann::ordered_json& summary) {
+  const auto found = summary.find("muscles");
+  if (found == summary.end() || !found->is_object() || !found->contains("mostly_prior")) return "";
+  return fmt::format(
+      "activations of the {} muscles at {:.2f} s: different from 0 (95 %) {}, {} {}\n",
+      (*found)["count"].get<std::size_t>(), (*found)["time_s"].get<double>(),
+      (*found)["differ_from_zero"].size(), simulate::kMostlyPriorWords,
+      (*found)["mostly_prior"].size());
 }
 
 }  // namespace hyperex::run

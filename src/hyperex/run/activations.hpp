@@ -2,6 +2,7 @@
 #pragma once
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "hyperex/simulate/performance.hpp"
 
@@ -17,9 +18,16 @@ void write_activations_csv(const std::filesystem::path& file,
                            const simulate::MuscleCourse& muscles);
 
 /// For summary.json, at the sample of the greatest summed activation: activation and standard
-/// deviation of each group on each side, and a sentence on how to read them. `driven_points`: their
-/// number.
+/// deviation of each group on each side, the share of its variance that the recording determines,
+/// and `note` where the activation is mostly the prior's choice. Then the number of muscles, the
+/// names of those that differ from 0 and of those that are mostly the prior's choice, and a
+/// sentence on how to read them. Empty where gains or mirroring leave no groups. `driven_points`:
+/// their number.
 nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
                                         std::size_t driven_points);
+
+/// One line from a run's summary: how many activations differ from 0, and how many are mostly the
+/// prior's choice. Empty where the summary does not have them.
+std::string activations_line(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

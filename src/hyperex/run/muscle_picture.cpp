@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "hyperex/core/run_together.hpp"
-#include "hyperex/core/within_95.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
+#include "hyperex/muscles/muscle_shapes.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/render/canvas.hpp"
 #include "hyperex/render/contact_sheet.hpp"
@@ -20,10 +20,12 @@
 #include "hyperex/render/time_plot.hpp"
 #include "hyperex/run/activations.hpp"
 #include "hyperex/run/face_box.hpp"
+#include "hyperex/simulate/load/known_activation.hpp"
 
 namespace hyperex::run {
 namespace {
 
+constexpr double kSheetOpacity = 0.3;  // sheets overlap along the fold
 constexpr std::array kBranches = {"temporal", "zygomatic", "buccal", "mandibular", "cervical"};
 
 render::Colour colour_of(const std::string& branch) {
@@ -46,13 +48,21 @@ class AtPeak {
   double activation(const std::string& name) const { return at(course_.activation, name); }
   /// Whether its 95 % interval leaves 0 out.
   bool known(const std::string& name) const {
-    return std::abs(activation(name)) > kWithin95 * at(course_.sigma, name);
+    return simulate::differs_from_zero(activation(name), at(course_.sigma, name));
+  }
+  bool mostly_prior(const std::string& name) const {
+    return !simulate::muscle_words(course_, row_of(name), sample_).empty();
   }
 
  private:
+  /// Below 0: no such muscle.
+  Eigen::Index row_of(const std::string& name) const {
+    const auto found = std::find(course_.names.begin(), course_.names.end(), name);
+    return found == course_.names.end() ? -1 : found - course_.names.begin();
+  }
   double at(const Eigen::MatrixXd& course, const std::string& name) const {
-    const auto row = std::find(course_.names.begin(), course_.names.end(), name);
-    return row == course_.names.end() ? std::nan("") : course(row - course_.names.begin(), sample_);
+    const Eigen::Index row = row_of(name);
+    return row < 0 ? std::nan("") : course(row, sample_);
   }
   const simulate::MuscleCourse& course_;
   Eigen::Index sample_;
@@ -72,23 +82,37 @@ struct View {
   bool left, right;  // the sides whose muscles are drawn
 };
 
-render::SheetPicture view_of(const View& view, const TriMesh& skin, const Points& framed,
-                             const std::vector<muscles::MuscleLine>& lines,
-                             const face::FaceFrame& frame, const AtPeak& peak,
-                             const muscles::MuscleTable& table) {
+/// What all views show.
+struct Drawn {
+  const TriMesh& skin;  // in the face's frame, as `framed`
+  const Points& framed;
+  const face::FaceFrame& frame;
+  const std::vector<muscles::MuscleLine>& lines;
+  const std::vector<muscles::MuscleShape>& shapes;
+  const AtPeak& peak;
+  const muscles::MuscleTable& table;
+};
+
+render::SheetPicture view_of(const View& view, const Drawn& drawn) {
+  const auto& [skin, framed, frame, lines, shapes, peak, table] = drawn;
   render::RenderOptions options{.width_px = 440, .height_px = 560};
   options.overlay_bias_m = 0.025;  // as deep as a muscle lies
   const render::Camera camera =
       render::framing(framed, view.to_viewer, double(options.width_px) / options.height_px);
-  std::vector<render::Polyline> drawn;
-  for (const muscles::MuscleLine& line : lines) {
+  std::vector<render::Polyline> drawn_lines;
+  std::vector<render::Fan> sheets;
+  for (std::size_t m = 0; m < lines.size(); ++m) {
+    const muscles::MuscleLine& line = lines[m];
     if (!(line.left ? view.left : view.right)) continue;
     const double activation = peak.activation(line.name);
-    const render::Colour colour = colour_of(table[std::size_t(line.row)].branch);
-    drawn.push_back({frame.local_points(line.line), peak.known(line.name) ? colour : pale(colour),
-                     1.5 + (activation > 0 ? 6 * std::min(activation, 1.0) : 0)});
+    const render::Colour full = colour_of(table[std::size_t(line.row)].branch);
+    const render::Colour colour = peak.known(line.name) ? full : pale(full);
+    drawn_lines.push_back({frame.local_points(shapes[m].line), colour,
+                           1.5 + (activation > 0 ? 6 * std::min(activation, 1.0) : 0)});
+    if (shapes[m].sheet.rows() > 0)
+      sheets.push_back({frame.local_points(shapes[m].sheet), colour, kSheetOpacity});
   }
-  render::Canvas canvas(render::render({{.mesh = skin}}, camera, options, {}, drawn));
+  render::Canvas canvas(render::render({{.mesh = skin}}, camera, options, {}, drawn_lines, sheets));
   for (const muscles::MuscleLine& line : lines) {
     if (!(line.left ? view.left : view.right)) continue;
     // Rings begin at one place, the corner of the mouth or of the eye.
@@ -113,7 +137,8 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
   const render::TextStyle head{
       .size_px = 11, .colour = render::palette::faint_ink, .align = render::Align::right},
       known{.size_px = 12, .align = render::Align::right, .bold = true},
-      unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right};
+      unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right},
+      faint{.size_px = 11, .colour = render::palette::faint_ink};
   canvas.text(wide - 60, 14, "right", head);
   canvas.text(wide - 10, 14, "left", head);
   for (std::size_t m = 0; m < all.size(); ++m) {
@@ -123,8 +148,10 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
     for (const auto& [side, x] : {std::pair("_R", wide - 60), std::pair("_L", wide - 10)}) {
       const std::string name = all[m].name + side;
       canvas.text(x, y, shown(peak.activation(name)), peak.known(name) ? known : unknown);
+      if (peak.mostly_prior(name)) canvas.text(x + 1, y, "*", faint);
     }
   }
+  canvas.text(left - 6, height_px - 28, fmt::format("* {}", simulate::kMostlyPriorWords), faint);
   double x = left - 6;
   for (const char* branch : kBranches) {
     canvas.rectangle(x, height_px - 20, 10, 10, colour_of(branch));
@@ -142,6 +169,8 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   const TriMesh skin{frame.local_points(mesh.skin.points), mesh.skin.triangles};
   const Points framed = points_within(face_box(landmarks, frame), skin.points);
   const std::vector<muscles::MuscleLine> lines = muscles::muscle_lines(table, mesh, landmarks);
+  const std::vector<muscles::MuscleShape> shapes =
+      muscles::muscle_shapes(lines, table, mesh, landmarks);
   const AtPeak peak(course);
   const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
   const std::array<View, 3> views{{{right, "right side", false, true},
@@ -150,15 +179,14 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   render::ContactSheet sheet;
   sheet.title = "Muscles";
   sheet.note = fmt::format(
-      "from origin (disc; of a ring its middle) to insertion; colour: branch of the facial nerve; "
-      "numbers and breadth: activation at {:.2f} s, pale where its 95 % interval holds 0; right "
-      "and "
-      "left are the subject's own",
+      "from origin (disc; of a ring its middle) to insertion; sheets end along the fold; "
+      "colour: branch of the facial nerve; numbers and breadth: activation at {:.2f} s, "
+      "pale where its 95 % interval holds 0; right and left are the subject's own",
       peak.time_s());
   sheet.columns = 4;
   sheet.pictures.resize(views.size());
   run_each(views.size(), [&](std::size_t i) {
-    sheet.pictures[i] = view_of(views[i], skin, framed, lines, frame, peak, table);
+    sheet.pictures[i] = view_of(views[i], {skin, framed, frame, lines, shapes, peak, table});
   });
   const int height_px = sheet.pictures.front().image.height;
   sheet.pictures.push_back({legend(table, peak, height_px), ""});

@@ -10,9 +10,11 @@ namespace hyperex::run {
 
 /// A picture of the muscles on this face, for checking by an anatomist. It shows their lines over
 /// the skin at rest, from the front and from both sides. Each line begins at a numbered disc at the
-/// origin (for a ring, in its middle). Its colour is that of the branch of the facial nerve, and
-/// its width increases with the activation at the sample in which the sum of all activations is
-/// greatest. A list beside the picture gives the names and these activations on both sides.
+/// origin (for a ring, in its middle). Muscles that end along the fold from nose to mouth have a
+/// translucent sheet between origin and fold, and rings are closed loops (MuscleShape). Colours are
+/// those of the branches of the facial nerve. A line's width increases with the activation at the
+/// sample in which the sum of all activations is greatest. A list beside the picture gives the
+/// names and these activations on both sides, with a star where one is mostly the prior's choice.
 render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                            const simulate::MuscleCourse& course,
                            const muscles::MuscleTable& table = muscles::muscle_template());

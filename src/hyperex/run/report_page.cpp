@@ -8,6 +8,7 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/muscles/muscle_lines.hpp"
+#include "hyperex/muscles/muscle_shapes.hpp"
 #include "hyperex/scene/file_names.hpp"
 #include "hyperex/simulate/load/held_load.hpp"
 
@@ -92,9 +93,11 @@ std::vector<report::ReportMuscle> muscles_of(const Results& r) {
   std::vector<report::ReportMuscle> muscles;
   if (r.simulation.performance.muscles.names.empty()) return muscles;
   const muscles::MuscleTable table = r.scene.muscles.table();
-  for (muscles::MuscleLine& one : muscles::muscle_lines(table, r.mesh, r.inputs.landmarks))
-    muscles.push_back(
-        {std::move(one.name), table[std::size_t(one.row)].latin, std::move(one.line)});
+  const auto lines = muscles::muscle_lines(table, r.mesh, r.inputs.landmarks);
+  auto shapes = muscles::muscle_shapes(lines, table, r.mesh, r.inputs.landmarks);
+  for (std::size_t m = 0; m < lines.size(); ++m)
+    muscles.push_back({lines[m].name, table[std::size_t(lines[m].row)].latin,
+                       std::move(shapes[m].line), std::move(shapes[m].sheet)});
   return muscles;
 }
 

@@ -15,15 +15,17 @@ namespace hyperex::simulate {
 
 /// Activations of muscles over a motion.
 struct MuscleCourse {
-  std::vector<std::string> names;   ///< "zyg_major_L", ...
-  std::vector<double> time_s;       ///< samples
-  Eigen::MatrixXd activation;       ///< |names| x samples; 1 moves some skin by 10 mm
-  Eigen::MatrixXd sigma;            ///< 1 sigma of it, from the points' errors and the prior
+  std::vector<std::string> names;  ///< "zyg_major_L", ...
+  std::vector<double> time_s;      ///< samples
+  Eigen::MatrixXd activation;      ///< |names| x samples; 1 moves some skin by 10 mm
+  Eigen::MatrixXd sigma;           ///< 1 sigma of it, from the points' errors and the prior
+  /// The same before a point is seen, in the sample's opening of the jaw; no rows: not known.
+  Eigen::MatrixXd prior_sigma;
   Eigen::VectorXd jaw_opening_deg;  ///< per sample
   /// Sums over the muscles of one side that points on the skin can hardly distinguish, "lip corner
   /// elevators_L". None where gains or mirroring change the activations.
   std::vector<std::string> groups;
-  Eigen::MatrixXd group_activation, group_sigma;  ///< |groups| x samples
+  Eigen::MatrixXd group_activation, group_sigma, group_prior_sigma;  ///< |groups| x samples
 };
 
 /// A face in motion: what a simulation gives to every output. Scan frame, metres.

@@ -139,6 +139,32 @@ TEST(Render, MarkersAndLinesShowOnlyWhereNothingHidesThem) {
   EXPECT_NEAR(reds(render({surface}, front, square, {}, {{line, red, 2}})), 150 * 2, 40);
 }
 
+TEST(Render, AFanIsTranslucentWithoutSeamsAndHiddenBehindASurface) {
+  const TriMesh mesh = ball();
+  const auto drawn = [&](const Fan& fan) {
+    return render({{.mesh = mesh}}, front, square, {}, {}, {fan});
+  };
+  const Image without = render({{.mesh = mesh}}, front, square);
+  Fan fan{.points = Points(4, 3), .colour = {1, 0, 0}, .opacity = 0.5};
+  // Beside the ball: the tip at pixel 155, 10, the others 30 pixels below.
+  fan.points << 0.11, 0.18, 0, 0.11, 0.12, 0, 0.15, 0.12, 0, 0.19, 0.12, 0;
+  const Image beside = drawn(fan);
+  for (int x = 157; x < 186; ++x)
+    for (int k = 0; k < 3; ++k)
+      EXPECT_NEAR(beside.pixel(x, 36)[k], 0.5 * without.pixel(x, 36)[k] + (k == 0 ? 127.5 : 0), 2)
+          << x;
+  EXPECT_EQ(beside.pixel(150, 36)[1], without.pixel(150, 36)[1]) << "outside";
+  EXPECT_EQ(beside.pixel(185, 20)[1], without.pixel(185, 20)[1]) << "it is narrow at its tip";
+  const auto before_or_behind = [&](double z) {
+    fan.points << 0, 0.03, z, -0.02, -0.03, z, 0, -0.03, z, 0.02, -0.03, z;
+    return drawn(fan).rgb == without.rgb;
+  };
+  EXPECT_TRUE(before_or_behind(-0.2));
+  EXPECT_FALSE(before_or_behind(0.2));
+  fan.points.conservativeResize(2, 3);
+  EXPECT_EQ(drawn(fan).rgb, without.rgb) << "no triangle";
+}
+
 TEST(Render, BackFacesAreDarker) {
   TriMesh mesh = ball();
   const Image outside = render({{.mesh = mesh}}, front, square);

@@ -193,9 +193,18 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   muscles.group_activation << 0, 9, 9, 0, 0.5, 0.25, 0, -0.12345, -0.5;
   muscles.group_sigma.resize(3, 3);
   muscles.group_sigma << 7, 8, 9, 1, 2, 3, 4, 5, 6;
+  muscles.group_prior_sigma.resize(3, 3);
+  muscles.group_prior_sigma << 8, 9, 10, 9, 9, 9, 7, 7, 7;
+  muscles.activation.resize(2, 3);
+  muscles.activation << 0, 0.5, 0.25, 0, 0.1, -0.5;
+  muscles.sigma.setConstant(2, 3, 0.2);
   Points line(2, 3);
   line << 1, 2, 3, 4, 5, 6;
-  input.muscles = {{"zyg_major_L", "zygomaticus major", line}};
+  Points sheet(3, 3);
+  sheet << 7, 8, 9, 1, 1, 1, 2, 2, 2;
+  input.muscles = {{"zyg_major_L", "zygomaticus major", line, sheet},
+                   {"zyg_major_R", "zygomaticus major", line},
+                   {"graft_L", "graft", line}};
   const json shown = manifest().at("muscles");
   EXPECT_EQ(shown.at("time_s").dump(), "[0.0,0.1,0.2]");
   EXPECT_EQ(shown.at("few_points"), true);
@@ -206,9 +215,15 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   EXPECT_EQ(group.at("right").dump(), "[0.0,-0.1235,-0.5]");
   EXPECT_EQ(group.at("sigma_left"), 2) << "where it acts most";
   EXPECT_EQ(group.at("sigma_right"), 6);
+  EXPECT_EQ(group.at("note_left"), "") << "2 of 9";
+  EXPECT_EQ(group.at("note_right"), "mostly the prior's choice") << "6 of 7";
   EXPECT_EQ(shown.at("lines")[0].at("name"), "zyg_major_L");
   EXPECT_EQ(shown.at("lines")[0].at("latin"), "zygomaticus major");
   EXPECT_EQ(shown.at("lines")[0].at("points").dump(), "[[1.0,2.0,3.0],[4.0,5.0,6.0]]");
+  EXPECT_EQ(shown.at("lines")[0].at("sheet").dump(), "[[7.0,8.0,9.0],[1.0,1.0,1.0],[2.0,2.0,2.0]]");
+  EXPECT_FALSE(shown.at("lines")[1].contains("sheet"));
+  EXPECT_EQ(shown.at("active"), json({"010", "001", ""}))
+      << "0.5 is 2.5 standard deviations from 0, 0.25 is 1.25";
   const std::vector<PointsF> none(face.performance.skin_displacement_m.size(),
                                   PointsF::Zero(face.performance.skin_rest.points.rows(), 3));
   input.variants.push_back({.name = "weak",
@@ -221,6 +236,19 @@ TEST(HtmlReport, HoldsWhatMusclesDoBySide) {
   input.variants[0].group_activation.row(1) << 0, 0.1, 0.2;
   EXPECT_EQ(manifest().at("variants")[0].at("muscles").dump(),
             "[{\"left\":[0.0,0.1,0.2],\"right\":[0.5,0.5,0.5]}]");
+  EXPECT_EQ(manifest().at("variants")[0].at("active_muscles"), json({"010", "001", ""}));
+  simulate::Performance other = face.performance;
+  other.muscles.time_s.back() = 0.3;
+  ReportInput with_other = input;
+  with_other.variants.clear();
+  with_other.variants.push_back({.name = "other times",
+                                 .changes = {},
+                                 .performance = other,
+                                 .difference = displacement_modes(none),
+                                 .tissue = {}});
+  BinaryBlock block;
+  EXPECT_EQ(replay_manifest(with_other, block, false).at("variants")[0].at("active_muscles"),
+            json::array());
   face.performance.driven_names.assign(21, "p");
   face.performance.driven_points_rest = Points::Zero(21, 3);
   EXPECT_EQ(manifest().at("muscles").at("few_points"), false);

@@ -67,6 +67,55 @@ TEST(MusclePicture, AMuscleThatMayBeAtRestIsPale) {
   EXPECT_EQ(full(0.02), known) << "it is one or the other";
 }
 
+/// Between the line of zygomaticus major and the fold lies its sheet, in the view from its side.
+TEST(MusclePicture, AMuscleThatEndsInTheFoldHasASheet) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  muscles::MuscleTable table = {*muscles::find_muscle("zyg_major")};
+  const auto draw = [&] {
+    return draw_muscles(face.mesh, face.landmarks, course(0.9, 0.9), table);
+  };
+  const render::Image with = draw();
+  table[0].fold_from = table[0].fold_to = 0;
+  const render::Image without = draw();
+  ASSERT_EQ(with.width, without.width);
+  int tinted = 0, other = 0;
+  for (int y = 0; y < with.height; ++y)
+    for (int x = 0; x < with.width; ++x) {
+      const std::uint8_t *a = with.pixel(x, y), *b = without.pixel(x, y);
+      if (std::equal(a, a + 3, b)) continue;
+      const render::Colour zygomatic = render::face_colour(1);
+      const double wanted[] = {255 * zygomatic.r, 255 * zygomatic.g, 255 * zygomatic.b};
+      bool between = true;
+      for (int k = 0; k < 3; ++k)
+        between &= a[k] + 2 >= std::min<double>(b[k], wanted[k]) &&
+                   a[k] - 2 <= std::max<double>(b[k], wanted[k]);
+      (between ? tinted : other) += 1;
+    }
+  EXPECT_GT(tinted, 2000) << "two sheets from in front, one from either side";
+  EXPECT_LT(other, tinted / 50) << "towards the colour of the branch";
+}
+
+TEST(MusclePicture, AStarInTheListMarksWhatThePriorChose) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const auto draw = [&](double prior_sigma) {
+    simulate::MuscleCourse drawn = course(0.9, 0.9, 0.2);
+    drawn.prior_sigma.setConstant(2, 2, prior_sigma);
+    return draw_muscles(face.mesh, face.landmarks, drawn);
+  };
+  const render::Image determined = draw(0.3), chosen = draw(0.22);
+  ASSERT_EQ(determined.width, chosen.width);
+  int faces = 0, list = 0;
+  for (int y = 0; y < chosen.height; ++y)
+    for (int x = 0; x < chosen.width; ++x) {
+      const bool differs =
+          !std::equal(chosen.pixel(x, y), chosen.pixel(x, y) + 3, determined.pixel(x, y));
+      (x < 3 * 440 ? faces : list) += differs;
+    }
+  EXPECT_EQ(faces, 0);
+  EXPECT_GT(list, 10);
+  EXPECT_LT(list, 400) << "two stars";
+}
+
 TEST(MusclePicture, HasADiscForEachMuscle) {
   const muscles::test::AFace& face = muscles::test::a_face();
   const render::Image image = draw_muscles(face.mesh, face.landmarks, course(0, 0));

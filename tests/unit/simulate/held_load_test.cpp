@@ -85,6 +85,7 @@ TEST(ChangedMuscles, AreMirroredAndThenScaled) {
   course.activation.resize(6, 2);
   course.activation << 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12;
   course.sigma = 0.1 * course.activation;
+  course.prior_sigma = 0.3 * course.activation;
   MuscleOptions options;
   options.mirrored = true;
   options.gains = {{"zyg_major_L", 0.5}};
@@ -93,6 +94,7 @@ TEST(ChangedMuscles, AreMirroredAndThenScaled) {
   wanted << 1.5, 2, 1, 2, 7, 8, 5, 6, 11, 12, 9, 10;
   EXPECT_LT((out.activation - wanted).norm(), 1e-15);
   EXPECT_LT((out.sigma - 0.1 * wanted).norm(), 1e-15);
+  EXPECT_LT((out.prior_sigma - 0.3 * wanted).norm(), 1e-14);
   EXPECT_EQ(out.names, kNames);
   options.gains.clear();
   EXPECT_EQ(changed_muscles(changed_muscles(course, options), options).activation,

@@ -235,6 +235,7 @@ TEST_F(FitOfPoints, CorrelatedMusclesAreAsAGaussianGivenThePoints) {
   priors.correlation = Eigen::Matrix4d::Identity();
   MuscleFit alone(r, jaw_, priors, sigma_m, all(kMuscles), none(kMuscles));
   EXPECT_GT((alone.fit(observed).activation - found.activation).norm(), 0.02);
+  EXPECT_LT((found.prior_covariance - before).cwiseAbs().maxCoeff(), 1e-15);
 }
 
 /// One point moves with the muscle alone and one with the jaw alone: the wider the jaw is open, the
@@ -257,6 +258,7 @@ TEST_F(FitOfPoints, AMuscleYieldsToTheOpeningJaw) {
     const double sigma = 0.3 / (1 + 8 * std::max(0.0, found.jaw[0]));
     EXPECT_NEAR(found.activation[0], 0.5 * of_points / (of_points + 1 / (sigma * sigma)), 1e-5)
         << opening;
+    EXPECT_NEAR(std::sqrt(found.prior_covariance(0, 0)), sigma, 1e-5) << opening;
   }
 }
 
@@ -306,6 +308,7 @@ TEST_F(FitOfPoints, WithoutDataNothingActs) {
       (nothing.covariance.diagonal().cwiseSqrt() - Eigen::Vector4d(0.4, 0.3, 0.4, 0.3)).norm(),
       1e-12)
       << "the prior's own";
+  EXPECT_LT((nothing.prior_covariance - nothing.covariance).norm(), 1e-12);
 }
 
 }  // namespace

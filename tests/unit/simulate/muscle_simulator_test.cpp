@@ -83,6 +83,14 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
   EXPECT_EQ(muscles.activation.rows(), 52);
   EXPECT_EQ(muscles.activation.cols(), 16);
   EXPECT_EQ(muscles.sigma.cols(), 16);
+  ASSERT_EQ(muscles.prior_sigma.cols(), 16);
+  EXPECT_GE((muscles.prior_sigma - muscles.sigma).minCoeff(), -1e-12) << "points tell nothing less";
+  ASSERT_EQ(muscles.group_prior_sigma.rows(), Eigen::Index(muscles.groups.size()));
+  EXPECT_GE((muscles.group_prior_sigma - muscles.group_sigma).minCoeff(), -1e-12);
+  const Eigen::ArrayXd determined =
+      1 - (muscles.sigma.col(15).array() / muscles.prior_sigma.col(15).array()).square();
+  EXPECT_GT(determined.maxCoeff(), 0.5) << "corners of the mouth show some muscles";
+  EXPECT_LT(determined.minCoeff(), 0.05) << "and not those of the brows";
   EXPECT_EQ(muscles.time_s.size(), 16u);
   EXPECT_EQ(muscles.jaw_opening_deg.size(), 16);
   EXPECT_EQ(muscles.activation.col(0).cwiseAbs().maxCoeff(), 0) << "at rest";

@@ -118,6 +118,12 @@ TEST_F(StudioSession, TellsWhatThereIsToSetBeforeAFaceIsOpen) {
 
 TEST_F(StudioSession, WeakensAMuscleLiveAndRunsItAgainFromTheSavedScene) {
   open();
+  const json& activations = event("face")->head["activations"];
+  const json &notes = activations["notes"], &names = activations["names"];
+  ASSERT_EQ(notes.size(), names.size());
+  EXPECT_GT(std::count(notes.begin(), notes.end(), "mostly the prior's choice"), 0);
+  const auto smiling = std::find(names.begin(), names.end(), "zyg_major_L") - names.begin();
+  EXPECT_EQ(notes.at(std::size_t(smiling)), "") << "the corner of the mouth shows it";
   EXPECT_EQ(ask("add_variant", {{"name", "weak"}, {"like", 0}})["face"], 1);
   work();
   const double whole_mm = right_mm(1);

@@ -39,6 +39,8 @@ export interface Face {
   tissue: SkinMap[];
   /** Activations over time, as in `Muscles.groups`; [] where not known. */
   muscles: { left: number[]; right: number[] }[];
+  /** Of each of `Muscles.lines`, a character per sample: 0 where the activation may be 0 (95 %). [] where not known. */
+  activeMuscles: string[];
   /** Frames x 7: the jaw's quaternion x y z w and its translation since rest; null without teeth. */
   jaw: Float32Array | null;
   /** The pose that surgery gave the upper teeth, quaternion x y z w and translation; null where it moved none. */
@@ -52,6 +54,9 @@ export interface MuscleGroup {
   /** 1 sigma of the activation where the group acts most. */
   sigmaLeft: number;
   sigmaRight: number;
+  /** "mostly the prior's choice" where that is so there; else empty. */
+  noteLeft: string;
+  noteRight: string;
 }
 
 /** Where muscles drive. */
@@ -59,7 +64,8 @@ export interface Muscles {
   timeS: number[];
   fewPoints: boolean;
   groups: MuscleGroup[];
-  lines: { name: string; latin: string; points: Vec3[] }[];
+  /** `sheet`: a fan, its tip first. */
+  lines: { name: string; latin: string; points: Vec3[]; sheet?: Vec3[] }[];
 }
 
 /** A hole of the skin. */
@@ -140,7 +146,9 @@ const tissueOf = (maps: SkinMapData[] | undefined, block: Block): SkinMap[] => (
 const musclesOf = ({ time_s, few_points, groups, lines }: MuscleData): Muscles => ({
   timeS: time_s,
   fewPoints: few_points,
-  groups: groups.map(({ sigma_left, sigma_right, ...group }) => ({ ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right })),
+  groups: groups.map(({ sigma_left, sigma_right, note_left, note_right, ...group }) => ({
+    ...group, sigmaLeft: sigma_left, sigmaRight: sigma_right, noteLeft: note_left ?? '', noteRight: note_right ?? '',
+  })),
   lines,
 });
 
@@ -181,6 +189,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(manifest.landmarks.positions),
     tissue: tissueOf(manifest.tissue, block),
     muscles: manifest.muscles?.groups ?? [],
+    activeMuscles: manifest.muscles?.active ?? [],
     jaw: manifest.motion.jaw ? block.float32(manifest.motion.jaw) : null,
     upperTeeth: manifest.motion.upper_teeth ?? null,
   };
@@ -199,6 +208,7 @@ function facesOf(manifest: MovingManifest, block: Block): Face[] {
     landmarkPositions: block.float32(variant.landmarks),
     tissue: tissueOf(variant.tissue, block),
     muscles: variant.muscles ?? [],
+    activeMuscles: variant.active_muscles ?? [],
     jaw: variant.jaw ? block.float32(variant.jaw) : null,
     upperTeeth: variant.upper_teeth ?? null,
   }));

@@ -43,10 +43,16 @@ export interface MuscleData {
   time_s: number[];
   /** Few points drive, so that the prior decides most activations. */
   few_points: boolean;
-  /** Sums over muscles that points can hardly distinguish; sigma: where the group acts most. */
-  groups: { name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number }[];
-  /** From origin to insertion, at rest. */
-  lines: { name: string; latin: string; points: [number, number, number][] }[];
+  /** Sums over muscles that points can hardly distinguish. Where the group acts most: sigma, and a note on what the
+   *  prior decides ("": none). */
+  groups: {
+    name: string; left: number[]; right: number[]; sigma_left: number; sigma_right: number; note_left?: string; note_right?: string;
+  }[];
+  /** From origin to insertion, at rest. A muscle that ends along the fold from nose to mouth has a sheet, a fan: its tip,
+   *  then points along the fold. */
+  lines: { name: string; latin: string; points: [number, number, number][]; sheet?: [number, number, number][] }[];
+  /** Of each line, a character per sample: 1 where the activation differs from 0 (95 %), else 0. "": not known. */
+  active?: string[];
 }
 
 /** Other tissue on the same mesh, moved by the same motion at the same times. */
@@ -67,6 +73,8 @@ export interface VariantData {
   tissue: SkinMapData[];
   /** Activations of the groups of the scene's own muscles; [] where unknown. */
   muscles?: { left: number[]; right: number[] }[];
+  /** As MuscleData.active; [] where unknown. */
+  active_muscles?: string[];
   /** See motion.jaw. */
   jaw?: Stretch;
   /** See motion.upper_teeth. */

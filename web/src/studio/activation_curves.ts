@@ -21,6 +21,7 @@ interface Drawn {
 
 export class ActivationCurves {
   private names: string[] = [];
+  private notes: string[] = [];
   private timeS: number[] = [];
   /** Names x times, of each face; null where they are not known. */
   private faces: (Float32Array | null)[] = [];
@@ -39,6 +40,7 @@ export class ActivationCurves {
 
   take(given: Activations | null, block: Block): void {
     this.names = given?.names ?? [];
+    this.notes = given?.notes ?? [];
     this.timeS = given?.time_s ?? [];
     this.faces = (given?.faces ?? []).map((values) => values && block.float32(values).slice());
     // One range for all, so that weak activations look weak.
@@ -90,7 +92,7 @@ export class ActivationCurves {
       const y = this.height(0).toFixed(2);
       for (const [key, value] of [['x1', '0'], ['x2', String(wide)], ['y1', y], ['y2', y]]) one.zero.setAttribute(key, value);
       const most = (values: Float32Array) => Math.max(...values).toFixed(2);
-      const spoken = words.activation(one.called, own ? most(own) : '–', base ? most(base) : '');
+      const spoken = words.activation(one.called, own ? most(own) : '–', base ? most(base) : '', this.notes[row] ?? '');
       one.picture.setAttribute('aria-label', spoken);
       one.picture.parentElement!.title = spoken;
     }

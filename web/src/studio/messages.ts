@@ -92,6 +92,8 @@ export interface Activations {
   time_s: number[];
   /** Names x times, one array per face; null where unknown. */
   faces: (Stretch | null)[];
+  /** Of each name: "mostly the prior's choice" where that is so in base, where the muscle acts most; else empty. */
+  notes: string[];
 }
 
 /** The event "scene". */

@@ -325,8 +325,9 @@ export interface FaceEvent {
   /** names, branches and sides for muscles.gain */
   muscles: unknown;
   /**
-   * of the muscles over time: names, time_s, faces (one array per face: float32, names x times); null where
-   * they do not drive
+   * of the muscles over time: names, time_s, faces (one array per face: float32, names x times), notes (one
+   * text per name: "mostly the prior's choice" where that is so in base in the sample in which the muscle
+   * acts most, else empty); null where they do not drive
    */
   activations: unknown;
   /**

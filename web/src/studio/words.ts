@@ -163,7 +163,7 @@ const en = {
   muteHint: (name: string) => `Mute ${name}: it does not pull`,
   soloHint: (name: string) => `Solo ${name}: no other muscle pulls`,
   ofSide: (name: string, side: string) => `${name}, ${side.toLowerCase()}`,
-  activation: (name: string, most: string, base: string) => `Activation of ${name} over time, at most ${most}${base ? `, in base ${base}` : ''}; at 1 a muscle moves the skin by 10 mm where most`,
+  activation: (name: string, most: string, base: string, note: string) => `Activation of ${name} over time, at most ${most}${base ? `, in base ${base}` : ''}; at 1 a muscle moves the skin by 10 mm where most${note ? `. As found in base it is ${note}` : ''}`,
   resetMuscles: 'All muscles to 100 %',
   noMuscles: 'Recorded points drive this face. After the first change of a muscle, muscles drive it.',
   drivenBy: { muscles: 'Muscles drive', displacement: 'Recorded points drive', reactions: 'Forces drive' } as Record<string, string>,

@@ -74,19 +74,20 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options) {
   MuscleCourse out = muscles;
-  if (options.mirrored)
-    for (std::size_t m = 0; m < muscles.names.size(); ++m) {
-      const int from = counterpart(muscles.names, m);
-      out.activation.row(static_cast<Eigen::Index>(m)) = muscles.activation.row(from);
-      out.sigma.row(static_cast<Eigen::Index>(m)) = muscles.sigma.row(from);
-    }
   if (muscles.names.empty() || (!options.mirrored && options.gains.empty())) return out;
-  out.groups.clear();
-  out.group_activation.resize(0, 0);
-  out.group_sigma.resize(0, 0);
   const Eigen::VectorXd factor = muscle_gains(muscles.names, options.gains, options.table());
-  out.activation = factor.asDiagonal() * out.activation;
-  out.sigma = factor.asDiagonal() * out.sigma;
+  for (Eigen::MatrixXd* course : {&out.activation, &out.sigma, &out.prior_sigma}) {
+    if (course->rows() == 0) continue;
+    const Eigen::MatrixXd recorded = *course;
+    for (std::size_t m = 0; m < muscles.names.size(); ++m) {
+      const auto own = static_cast<Eigen::Index>(m);
+      const Eigen::Index from = options.mirrored ? counterpart(muscles.names, m) : own;
+      course->row(own) = factor[own] * recorded.row(from);
+    }
+  }
+  out.groups.clear();
+  for (Eigen::MatrixXd* course : {&out.group_activation, &out.group_sigma, &out.group_prior_sigma})
+    course->resize(0, 0);
   return out;
 }
 

@@ -59,6 +59,13 @@ Eigen::VectorXd MuscleFit::sigmas() const {
   return out;
 }
 
+/// Of the activations before a point is seen.
+Eigen::MatrixXd MuscleFit::prior_covariance() const {
+  const Eigen::VectorXd sigma = sigmas();
+  if (priors_.correlation.size() == 0) return sigma.cwiseAbs2().asDiagonal();
+  return sigma.asDiagonal() * priors_.correlation * sigma.asDiagonal();
+}
+
 /// The inverse of the activations' covariance before a point is seen.
 void MuscleFit::add_priors(Eigen::MatrixXd& h) const {
   const Eigen::VectorXd one_over = sigmas().cwiseInverse();
@@ -90,6 +97,7 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     h.bottomLeftCorner(6, muscles) = h.topRightCorner(muscles, 6).transpose();
     h.bottomRightCorner(6, 6) = jaw.transpose() * jaw;
     add_priors(h);
+    last_.prior_covariance = prior_covariance();
     for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
     Eigen::VectorXd g(all), x(all);
     g << pulls.transpose() * right, jaw.transpose() * right;

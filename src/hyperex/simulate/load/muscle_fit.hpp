@@ -52,7 +52,9 @@ struct FitResult {
   Eigen::VectorXd activation;
   JawPose jaw = JawPose::Zero();
   Eigen::MatrixXd covariance;  ///< of the activations, without regard to their bounds
-  Eigen::VectorXd left_over;   ///< observed less modelled, 3 P, m
+  /// The same before a point is seen, at the signs and the jaw's opening of this answer.
+  Eigen::MatrixXd prior_covariance;
+  Eigen::VectorXd left_over;  ///< observed less modelled, 3 P, m
 };
 
 /// Fits activations and the jaw's pose to displacements of points.
@@ -75,6 +77,7 @@ class MuscleFit {
   Eigen::MatrixXd precision_;  ///< the inverse of the correlations
   Eigen::MatrixXd blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const;
   Eigen::VectorXd sigmas() const;
+  Eigen::MatrixXd prior_covariance() const;
   void add_priors(Eigen::MatrixXd& h) const;
   FitResult last_;
 };

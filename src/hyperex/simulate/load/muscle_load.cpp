@@ -189,9 +189,26 @@ Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
 void resize(MuscleCourse& course, Eigen::Index muscles, Eigen::Index groups, Eigen::Index samples) {
   course.group_activation.resize(groups, samples);
   course.group_sigma.resize(groups, samples);
+  course.group_prior_sigma.resize(groups, samples);
   course.activation.resize(muscles, samples);
   course.sigma.resize(muscles, samples);
+  course.prior_sigma.resize(muscles, samples);
   course.jaw_opening_deg.resize(samples);
+}
+
+/// The activations of a sample with their standard deviations. `members`: of name_groups().
+void store_sample(const FitResult& fitted, const Eigen::MatrixXd& members, Eigen::Index sample,
+                  MuscleCourse& course) {
+  const auto sigmas = [](const Eigen::MatrixXd& covariance) {
+    return Eigen::VectorXd(covariance.diagonal().cwiseSqrt());
+  };
+  course.activation.col(sample) = fitted.activation;
+  course.sigma.col(sample) = sigmas(fitted.covariance);
+  course.prior_sigma.col(sample) = sigmas(fitted.prior_covariance);
+  course.group_activation.col(sample) = members * fitted.activation;
+  course.group_sigma.col(sample) = sigmas(members * fitted.covariance * members.transpose());
+  course.group_prior_sigma.col(sample) =
+      sigmas(members * fitted.prior_covariance * members.transpose());
 }
 
 /// Orthonormal directions of the columns, as many as matter.
@@ -309,11 +326,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
     const FitResult fitted = fit.fit(seen.col(k));
-    muscle.activation.col(k) = fitted.activation;
-    muscle.sigma.col(k) = fitted.covariance.diagonal().cwiseSqrt();
-    muscle.group_activation.col(k) = members * fitted.activation;
-    muscle.group_sigma.col(k) =
-        (members * fitted.covariance * members.transpose()).diagonal().cwiseSqrt();
+    store_sample(fitted, members, k, muscle);
     muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
     for (Eigen::Index m = 0; m < count; ++m) {
       const double a = fitted.activation[m];

@@ -12,6 +12,11 @@ import type { Shown } from '../shown';
 const strongest = (values: number[]): number => values.reduce((most, v) => (Math.abs(v) > Math.abs(most) ? v : most), 0);
 const pull = ({ left, right }: MuscleGroup): number => Math.max(...left, ...right);
 
+/** "On both sides it is mostly the prior's choice. "; empty where that is said of neither. */
+const noteOf = (right: string, left: string): string =>
+  right && right === left ? `On both sides it is ${right}. `
+    : (right && `On the right it is ${right}. `) + (left && `On the left it is ${left}. `);
+
 /** The groups, sorted by activation in base; those that only relax are last. One of them is chosen. Curves are of the
  *  faces shown; those of the second face are dashed. */
 export class MuscleCurves {
@@ -25,14 +30,14 @@ export class MuscleCurves {
   }
 
   get now(): Omit<Chart, 'title'> {
-    const { name, sigmaLeft, sigmaRight } = this.groups[this.chosen];
+    const { name, sigmaLeft, sigmaRight, noteLeft, noteRight } = this.groups[this.chosen];
     const known = [...new Set(this.shown.visible)].filter((face) => this.faces[face].muscles.length > 0);
     const visible = known.length > 0 ? known : [0];
     const several = this.faces.length > 1;
     const caption =
       'Sum over muscles that points on the skin can hardly tell apart; a muscle at 1 moves the skin by 10 mm where most, below 0 it relaxes. ' +
       (several ? `Of ${visible.map((face) => faceWords(this.faces, face)).join('; dashed: ')}: variants answer what was found in base, times what they change. ` : '') +
-      `Where it acts most in base, right ± ${sigmaRight.toFixed(2)}, left ± ${sigmaLeft.toFixed(2)} (one sigma, of the points and the prior alone). ` +
+      `Where it acts most in base, right ± ${sigmaRight.toFixed(2)}, left ± ${sigmaLeft.toFixed(2)} (one sigma, of the points and the prior alone). ${noteOf(noteRight, noteLeft)}` +
       (this.muscles.fewPoints ? 'With so few points this is a means of moving the face, not a measurement of muscles.' : '');
     return {
       caption: caption.trim(), unit: '', digits: 2, timeS: this.muscles.timeS, yLabel: 'activation', heightPx: 200,

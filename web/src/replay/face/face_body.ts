@@ -81,6 +81,7 @@ export class FaceBody {
   private detail: LevelOfDetail | null = null;
   private fewOfSkin: ArrayLike<number> | undefined;
   private normalsOf: ArrayLike<number> | undefined;
+  private frame = 0;
 
   constructor(private readonly replay: Replay, scene: SceneMotion, face: Face, private readonly materials: FaceMaterials) {
     this.shape = new FaceShape(replay, scene, face);
@@ -151,6 +152,7 @@ export class FaceBody {
   /** `live`: displacements instead of those of the motion. */
   moveTo(face: Face, frame: number, live: Float32Array | null = null): void {
     this.shape.face = face;
+    this.frame = frame;
     this.shape.moveTo(frame, live, this.normalsOf);
     this.copyOut(this.shape.position, this.position);
     this.copyOut(this.shape.normal, this.normal);
@@ -158,8 +160,8 @@ export class FaceBody {
     this.backing.eyes.turn(this.replay.gaze, frame);
     this.teeth.light = this.backing.lightInMouth;
     for (const overlay of this.overlays)
-      if (overlay.object.visible) overlay.follow(this.shape.displacement);
-    this.lit?.follow(this.shape.displacement);
+      if (overlay.object.visible) this.carry(overlay);
+    if (this.lit) this.carry(this.lit);
   }
 
   /** Shows these muscles alone, brighter than the others. */
@@ -168,7 +170,11 @@ export class FaceBody {
     this.lit = litMuscles(this.replay, names);
     if (!this.lit) return;
     this.object.add(this.lit.object);
-    this.lit.follow(this.shape.displacement);
+    this.carry(this.lit);
+  }
+
+  private carry(overlay: Overlay): void {
+    overlay.follow(this.shape.displacement, this.face, this.frame);
   }
 
   /** `other`: the other face of two. */
@@ -196,7 +202,7 @@ export class FaceBody {
     for (const overlay of this.overlays) {
       if (overlay.name !== name) continue;
       overlay.object.visible = visible;
-      if (visible) overlay.follow(this.shape.displacement);
+      if (visible) this.carry(overlay);
     }
   }
 

@@ -3,7 +3,7 @@
 import { drawColourBar } from './colour_bar';
 import { colouringsOf, type Colouring, type Painting } from './colouring';
 import type { Face, Replay } from '../data';
-import { at } from '../../page/dom';
+import { at, element } from '../../page/dom';
 import { Undoing } from '../../page/listeners';
 import { wireSheet } from '../../page/menu';
 import { changeMode, chooseFace, wireFaces } from './face_chooser';
@@ -254,7 +254,9 @@ export class Stage {
       box.addEventListener('change', () => this.viewer!.showOverlay(overlay.name, box.checked));
       const swatch = document.createElement('i');
       swatch.style.background = overlay.colour;
-      label.append(box, swatch, overlay.label);
+      const said = element('span', overlay.label);
+      if (overlay.legend) said.append(element('small', overlay.legend));
+      label.append(box, swatch, said);
       at('overlays').append(label);
     }
   }
