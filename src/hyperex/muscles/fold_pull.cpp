@@ -1,11 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/muscles/fold_pull.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
+#include <utility>
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
@@ -21,6 +25,45 @@ constexpr int kPieces = 40;
 /// upper end, from the corner of the mouth to its lower end, and the largest outward bow between
 /// them. Measured on the groove of a real smile; the line agrees with it to 2 mm (docs/muscles.md).
 constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
+/// The share of the line at which a given middle lies is at least this from both ends. Nearer to an
+/// end, a curve through all three would bend too much.
+constexpr double kLeastShare = 0.2;
+
+/// A quadratic curve from `upper` to `lower`: at the share s of its way it is
+/// (1 - s) upper + s lower + 4 s (1 - s) bow.
+struct FoldCurve {
+  Vec3 upper, lower, bow;
+  Vec3 at(double s) const { return (1 - s) * upper + s * lower + 4 * s * (1 - s) * bow; }
+
+  /// Bows it so that it passes through `middle`, at the share that the distances from both ends
+  /// give.
+  void lead_through(const Vec3& middle) {
+    const double above = (middle - upper).norm(), below = (lower - middle).norm();
+    const double s =
+        above + below > 0 ? std::clamp(above / (above + below), kLeastShare, 1 - kLeastShare) : 0.5;
+    bow = (middle - (1 - s) * upper - s * lower) / (4 * s * (1 - s));
+  }
+};
+
+/// The landmarks of the fold where they are given, and else the rule.
+FoldCurve fold_curve(const io::Landmarks& landmarks, bool left) {
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  const double mm = 1e-3 * scale_of(landmarks);
+  const Vec3 out = (left ? 1 : -1) * mm * frame.x, up = mm * frame.y;
+  const auto given = [&](face::FoldPoint point) {
+    return landmarks.find(face::fold_landmark(point, left));
+  };
+  const auto end_of = [&](face::FoldPoint point, int ibug, const double(&offset_mm)[2]) -> Vec3 {
+    const auto found = given(point);
+    if (found != landmarks.end()) return found->second;
+    return landmarks.at(face::ibug(ibug)) + offset_mm[0] * out + offset_mm[1] * up;
+  };
+  FoldCurve curve{end_of(face::FoldPoint::upper, left ? 35 : 31, kUpper_mm),
+                  end_of(face::FoldPoint::lower, left ? 54 : 48, kLower_mm), kBow_mm * out};
+  if (const auto middle = given(face::FoldPoint::middle); middle != landmarks.end())
+    curve.lead_through(middle->second);
+  return curve;
+}
 
 /// The part of a line between the shares `from` and `to` of its length. The points of the line are
 /// equally spaced.
@@ -41,21 +84,25 @@ MuscleLine part_of(const Points& line, double from, double to) {
 }  // namespace
 
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left) {
-  const face::FaceFrame frame = face::face_frame(landmarks);
-  const double mm = 1e-3 * scale_of(landmarks);
-  const Vec3 out = (left ? 1 : -1) * mm * frame.x, up = mm * frame.y;
-  const Vec3 wing =
-      landmarks.at(face::ibug(left ? 35 : 31)) + kUpper_mm[0] * out + kUpper_mm[1] * up;
-  const Vec3 corner =
-      landmarks.at(face::ibug(left ? 54 : 48)) + kLower_mm[0] * out + kLower_mm[1] * up;
+  const FoldCurve curve = fold_curve(landmarks, left);
   const SurfaceTree skin(mesh.volume.outer);
   Points line(kPieces + 1, 3);
-  for (int k = 0; k <= kPieces; ++k) {
-    const double s = double(k) / kPieces;
-    line.row(k) =
-        skin.query((1 - s) * wing + s * corner + 4 * s * (1 - s) * kBow_mm * out).point.transpose();
-  }
+  for (int k = 0; k <= kPieces; ++k)
+    line.row(k) = skin.query(curve.at(double(k) / kPieces)).point.transpose();
   return line;
+}
+
+io::Landmarks fold_places(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {
+  io::Landmarks places;
+  for (const bool left : {true, false}) {
+    const Points line = nasolabial_fold(mesh, landmarks, left);
+    for (const auto& [point, row] : {std::pair{face::FoldPoint::upper, 0},
+                                     {face::FoldPoint::middle, kPieces / 2},
+                                     {face::FoldPoint::lower, kPieces}})
+      if (const std::string name = face::fold_landmark(point, left); !landmarks.contains(name))
+        places[name] = line.row(row).transpose();
+  }
+  return places;
 }
 
 Eigen::VectorXd fold_pull(const MuscleLine& line, const TemplateMuscle& muscle, const Points& fold,

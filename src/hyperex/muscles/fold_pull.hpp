@@ -7,8 +7,13 @@ namespace hyperex::muscles {
 
 /// The line in the skin along which the fold from nose to mouth (nasolabial fold) forms, on the
 /// subject's left or right side. It runs from beside the wing of the nose to beside the corner of
-/// the mouth. n x 3, m, equally spaced along the line.
+/// the mouth, through the landmarks of the fold that are given (face::fold_landmark). A rule gives
+/// the ends that are not, and the bow where the middle is not. n x 3, m, nearly equally spaced.
 Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left);
+
+/// Where the line of each side has those of its ends and its middle that `landmarks` lack: by name
+/// (face::optional_landmarks), m, on the skin.
+io::Landmarks fold_places(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks);
 
 /// Nodal forces (3 |nodes|, N) of a muscle whose fibres end in the skin along a part of the fold
 /// (TemplateMuscle::fold_from, fold_to). `fold`: the nasolabial_fold() of the muscle's side. The
