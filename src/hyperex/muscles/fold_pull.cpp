@@ -6,7 +6,10 @@
 #include <numbers>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include "hyperex/anatomy/fold_profile.hpp"
+#include "hyperex/core/quantile.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/optional_landmarks.hpp"
@@ -29,6 +32,12 @@ constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
 /// end, a curve through all three would bend too much.
 constexpr double kLeastShare = 0.2;
 
+/// Cuts in which the groove at rest is the fold's. Of four faces with a smile, three are 2.0 to 2.5
+/// mm deep there; on the fourth, and on the canonical face, what is 1.0 to 1.6 mm deep is not the
+/// fold.
+constexpr double kRestShares[] = {0.2, 0.3, 0.4};
+constexpr double kRestDepth_mm = 1.75, kFarthestShift_mm = 6;
+
 /// A quadratic curve from `upper` to `lower`: at the share s of its way it is
 /// (1 - s) upper + s lower + 4 s (1 - s) bow.
 struct FoldCurve {
@@ -45,24 +54,56 @@ struct FoldCurve {
   }
 };
 
-/// The landmarks of the fold where they are given, and else the rule.
-FoldCurve fold_curve(const io::Landmarks& landmarks, bool left) {
+/// The rule's line.
+FoldCurve ruled_curve(const io::Landmarks& landmarks, bool left) {
   const face::FaceFrame frame = face::face_frame(landmarks);
   const double mm = 1e-3 * scale_of(landmarks);
   const Vec3 out = (left ? 1 : -1) * mm * frame.x, up = mm * frame.y;
+  return {landmarks.at(face::ibug(left ? 35 : 31)) + kUpper_mm[0] * out + kUpper_mm[1] * up,
+          landmarks.at(face::ibug(left ? 54 : 48)) + kLower_mm[0] * out + kLower_mm[1] * up,
+          kBow_mm * out};
+}
+
+/// The landmarks of the fold where they are given, and else the rule, shifted.
+FoldCurve fold_curve(const io::Landmarks& landmarks, bool left, const Vec3& shift) {
   const auto given = [&](face::FoldPoint point) {
     return landmarks.find(face::fold_landmark(point, left));
   };
-  const auto end_of = [&](face::FoldPoint point, int ibug, const double(&offset_mm)[2]) -> Vec3 {
+  const auto or_given = [&](face::FoldPoint point, const Vec3& ruled) -> Vec3 {
     const auto found = given(point);
-    if (found != landmarks.end()) return found->second;
-    return landmarks.at(face::ibug(ibug)) + offset_mm[0] * out + offset_mm[1] * up;
+    return found == landmarks.end() ? Vec3(ruled + shift) : found->second;
   };
-  FoldCurve curve{end_of(face::FoldPoint::upper, left ? 35 : 31, kUpper_mm),
-                  end_of(face::FoldPoint::lower, left ? 54 : 48, kLower_mm), kBow_mm * out};
+  FoldCurve curve = ruled_curve(landmarks, left);
+  curve.upper = or_given(face::FoldPoint::upper, curve.upper);
+  curve.lower = or_given(face::FoldPoint::lower, curve.lower);
   if (const auto middle = given(face::FoldPoint::middle); middle != landmarks.end())
     curve.lead_through(middle->second);
   return curve;
+}
+
+/// The curve laid on the skin: kPieces + 1 points.
+Points laid_on_skin(const FoldCurve& curve, const TriMesh& surface) {
+  const SurfaceTree skin(surface);
+  Points line(kPieces + 1, 3);
+  for (int k = 0; k <= kPieces; ++k)
+    line.row(k) = skin.query(curve.at(double(k) / kPieces)).point.transpose();
+  return line;
+}
+
+/// How far outwards (mm) a line crosses the cut at this share of the way.
+double crossing_mm(const Points& line, const anatomy::FoldProfile& profile, double share) {
+  double last_share = -1, last_mm = 0;
+  for (Eigen::Index k = 0; k < line.rows(); ++k) {
+    const Vec3 local = 1e3 * profile.frame().local(line.row(k).transpose());
+    const Eigen::Vector2d from_wing = local.head<2>() - profile.wing();
+    const double here = from_wing.dot(profile.along()) / profile.along().squaredNorm();
+    const double out_mm = from_wing.dot(profile.across());
+    if (k > 0 && last_share <= share && share <= here && here > last_share)
+      return last_mm + (share - last_share) / (here - last_share) * (out_mm - last_mm);
+    last_share = here;
+    last_mm = out_mm;
+  }
+  return last_mm;
 }
 
 /// The part of a line between the shares `from` and `to` of its length. The points of the line are
@@ -83,13 +124,27 @@ MuscleLine part_of(const Points& line, double from, double to) {
 
 }  // namespace
 
-Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left) {
-  const FoldCurve curve = fold_curve(landmarks, left);
-  const SurfaceTree skin(mesh.volume.outer);
-  Points line(kPieces + 1, 3);
-  for (int k = 0; k <= kPieces; ++k)
-    line.row(k) = skin.query(curve.at(double(k) / kPieces)).point.transpose();
-  return line;
+Vec3 groove_at_rest(const TriMesh& skin, const io::Landmarks& landmarks, bool left) {
+  const anatomy::FoldProfile profile(skin, landmarks, left);
+  const Points ruled = laid_on_skin(ruled_curve(landmarks, left), skin);
+  std::vector<double> depths_mm, offsets_mm;
+  for (const double share : kRestShares) {
+    const auto groove = profile.groove(share);
+    if (!groove) return Vec3::Zero();
+    depths_mm.push_back(groove->depth_mm);
+    offsets_mm.push_back(groove->place_mm - crossing_mm(ruled, profile, share));
+  }
+  const double offset_mm = median(offsets_mm);
+  if (median(depths_mm) < kRestDepth_mm || std::abs(offset_mm) > kFarthestShift_mm)
+    return Vec3::Zero();
+  const Eigen::Vector2d across = profile.across();
+  return 1e-3 * offset_mm * (across.x() * profile.frame().x + across.y() * profile.frame().y);
+}
+
+Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left,
+                       bool from_rest) {
+  const Vec3 shift = from_rest ? groove_at_rest(mesh.skin, landmarks, left) : Vec3(Vec3::Zero());
+  return laid_on_skin(fold_curve(landmarks, left, shift), mesh.volume.outer);
 }
 
 io::Landmarks fold_places(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks) {

@@ -9,7 +9,16 @@ namespace hyperex::muscles {
 /// subject's left or right side. It runs from beside the wing of the nose to beside the corner of
 /// the mouth, through the landmarks of the fold that are given (face::fold_landmark). A rule gives
 /// the ends that are not, and the bow where the middle is not. n x 3, m, nearly equally spaced.
-Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left);
+/// `from_rest`: the rule's ends are shifted by groove_at_rest().
+Points nasolabial_fold(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks, bool left,
+                       bool from_rest = FoldShape{}.from_rest);
+
+/// How far outwards, across the fold (m, scan frame), the groove of the skin at rest lies from the
+/// rule's line: the median over cuts at 0.2, 0.3 and 0.4 of the way from the wing of the nose to
+/// the corner of the mouth (anatomy::FoldProfile). Nearer to the mouth the deepest groove is that
+/// of the lips. Zero where the median depth is below 1.75 mm, as on faces without a fold at rest,
+/// where the shift would be more than 6 mm, or where a cut meets a hole.
+Vec3 groove_at_rest(const TriMesh& skin, const io::Landmarks& landmarks, bool left);
 
 /// Where the line of each side has those of its ends and its middle that `landmarks` lack: by name
 /// (face::optional_landmarks), m, on the skin.
