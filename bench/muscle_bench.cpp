@@ -90,6 +90,7 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("midline", m.shape.midline_m, mm);
   take("fold_width", m.fold.width_mm);
   take("fold_inwards", m.fold.inwards_deg);
+  if (has("fold_from_rest")) m.fold.from_rest = true;
   take("widening", m.widening);
   take("half", m.half);
   take("sigma", m.few_sigma_m, mm);

@@ -7,6 +7,9 @@
 #include "bones_message.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
+#include "hyperex/face/point_words.hpp"
+#include "hyperex/muscles/fold_pull.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "hyperex/session/remarks_json.hpp"
@@ -28,6 +31,25 @@ json muscles_json(const muscles::MuscleTable& table) {
   return {{"muscles", out}, {"names", muscles::gain_names(table)}};
 }
 
+/// The scan's landmarks, and those of the fold at the places that the rule gives them.
+json landmarks_json(const OpenFace& of) {
+  const io::Landmarks& known = of.inputs().landmarks;
+  const std::vector<std::string>& placed = of.inputs().placed;
+  const bool none_given = of.scene().scan.landmarks.empty();
+  json out = json::array();
+  const auto add = [&](const std::string& name, const Vec3& place, bool found) {
+    out.push_back({{"name", name},
+                   {"other", face::mirrored_landmark(name)},
+                   {"position", {place.x(), place.y(), place.z()}},
+                   {"found", found}});
+  };
+  for (const auto& [name, place] : known)
+    add(name, place, none_given || std::count(placed.begin(), placed.end(), name) > 0);
+  for (const auto& [name, place] : muscles::fold_places(of.session().mesh(), known))
+    add(name, place, true);
+  return out;
+}
+
 }  // namespace
 
 void Session::send_motion(Stopwatch& watch) {
@@ -44,16 +66,9 @@ void Session::send_motion(Stopwatch& watch) {
     head["seconds"] = watch.lap();
     head["bands"] = face_->session().certainty_known();
   } else {
-    json landmarks = json::array();
-    const std::vector<std::string>& placed = face_->inputs().placed;
-    const fs::path& given = face_->scene().scan.landmarks;
-    for (const auto& [name, place] : face_->inputs().landmarks)
-      landmarks.push_back(
-          {{"name", name},
-           {"other", face::mirrored_landmark(name)},
-           {"position", {place.x(), place.y(), place.z()}},
-           {"found", given.empty() || std::count(placed.begin(), placed.end(), name) > 0}});
-    head["landmarks"] = landmarks;
+    head["landmarks"] = landmarks_json(*face_);
+    for (const std::string& name : face::optional_landmarks())
+      head["replay"]["point_words"][name] = face::point_words(name);
     head["muscles"] = muscles_json(face_->scene().muscles.table());
     head["bones"] = bones_json(face_->session().mesh(), face_->inputs().landmarks, block);
     const Eigen::VectorXf thickness = face_->unpainted_mm();

@@ -4,9 +4,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hyperex/anatomy/fold_landmarks.hpp"
 #include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/same_place.hpp"
+#include "hyperex/muscles/fold_pull.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "session.hpp"
 
@@ -15,7 +17,13 @@ namespace hyperex::studio {
 json Session::move_landmark(const json& fields) {
   const io::Landmarks& known = require_face().inputs().landmarks;
   const std::string name = fields.at("name");
-  if (!known.count(name)) throw InputError(name + ": no landmark of this face");
+  io::Landmarks all = known;
+  if (!known.count(name)) {
+    const io::Landmarks by_rule = muscles::fold_places(face_->session().mesh(), known);
+    const auto found = by_rule.find(name);
+    if (found == by_rule.end()) throw InputError(name + ": no landmark of this face");
+    all.insert(*found);
+  }
   const io::Scan& scan = face_->inputs().scan;
   if (!scan_) scan_.emplace(scan.mesh);
   std::vector<std::string> names{name};
@@ -31,12 +39,13 @@ json Session::move_landmark(const json& fields) {
     const Vec3 place(at[0].get<double>(), at[1].get<double>(), at[2].get<double>());
     for (const std::string& one : names) moved_[one] = scan_->query(place).point;
   }
-  io::Landmarks all = known;
   for (const auto& [one, place] : moved_) all[one] = place;
   const Vec3 now = all.at(name);
+  std::vector<std::string> warnings = anatomy::fold_landmark_problems(all);
   if (names.size() > 1) all.erase(names[1]);  // one doubt per place, under the requested name
-  return {{"position", {now.x(), now.y(), now.z()}},
-          {"warnings", texts_of(anatomy::landmark_doubts(all, scan.mesh))}};
+  for (std::string& text : texts_of(anatomy::landmark_doubts(all, scan.mesh)))
+    warnings.push_back(std::move(text));
+  return {{"position", {now.x(), now.y(), now.z()}}, {"warnings", warnings}};
 }
 
 json Session::landmarks_done(const json&) {

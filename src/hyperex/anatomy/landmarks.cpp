@@ -10,12 +10,15 @@
 #include <set>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/fold_landmarks.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/anatomy/negated_axes.hpp"
 #include "hyperex/anatomy/register_face.hpp"
 #include "hyperex/anatomy/scan_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/lower_case.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -219,6 +222,29 @@ bool looks_outwards(const KnownLandmarks& known, const TriMesh& scan, const Surf
   return sum > 0;
 }
 
+/// The canonical face, registered to the scan and to the known landmarks, gives the missing ones.
+void place_missing(const std::set<std::string>& missing, const io::Landmarks& given,
+                   const KnownLandmarks& known, const TriMesh& scan, const SurfaceTree& tree,
+                   io::Landmarks& landmarks) {
+  const CanonicalFace& face = canonical_face();
+  const RegisteredFace registered = register_canonical_face(given, scan);
+  Points registered_known = known.given;
+  for (std::size_t i = 0; i < known.names.size(); ++i)
+    registered_known.row(Eigen::Index(i)) = face.landmark(known.names[i], registered.points);
+  const Rbf correction(registered_known, known.given - registered_known);
+  for (const auto& name : missing) {
+    const Vec3 fitted = face.landmark(name, registered.points);
+    landmarks[name] = tree.query(fitted + correction.at(fitted)).point;
+  }
+}
+
+/// Those of the fold can be judged only where all others are known.
+std::vector<std::string> problems_at_the_fold(const io::Landmarks& landmarks) {
+  const bool complete = std::ranges::all_of(
+      face::all_ibug(), [&](const std::string& name) { return landmarks.contains(name); });
+  return complete ? fold_landmark_problems(landmarks) : std::vector<std::string>();
+}
+
 }  // namespace
 
 CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
@@ -231,7 +257,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh&
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given) {
   std::vector<std::string> names;
   for (const auto& entry : given)
-    if (!canonical_face().landmarks.contains(entry.first)) names.push_back(entry.first);
+    if (!face::is_known_landmark(entry.first)) names.push_back(entry.first);
   return names;
 }
 
@@ -247,14 +273,13 @@ Note unknown_landmarks_note(const std::vector<std::string>& names) {
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,
                                       const std::vector<std::string>& needed, const TriMesh& scan,
                                       const std::string& source) {
-  const CanonicalFace& face = canonical_face();
   const SurfaceTree tree(scan);
   std::vector<std::string> problems = offset_problems(given, scan, tree);
   std::set<std::string> missing;
   for (const auto& name : needed)
     if (!given.contains(name)) missing.insert(name);
   for (const auto& name : missing)
-    if (!face.landmarks.contains(name))
+    if (!canonical_face().landmarks.contains(name))
       problems.push_back("landmark " + name +
                          " is needed and missing, and cannot be placed: its name is unknown");
   const KnownLandmarks known = known_landmarks(given);
@@ -285,16 +310,9 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
   if (!problems.empty()) refuse_all(source, problems);
 
   CompletedLandmarks completed{given, {missing.begin(), missing.end()}};
-  if (missing.empty()) return completed;
-  const RegisteredFace registered = register_canonical_face(given, scan);
-  Points registered_known = known.given;
-  for (std::size_t i = 0; i < known.names.size(); ++i)
-    registered_known.row(Eigen::Index(i)) = face.landmark(known.names[i], registered.points);
-  const Rbf correction(registered_known, known.given - registered_known);
-  for (const auto& name : missing) {
-    const Vec3 fitted = face.landmark(name, registered.points);
-    completed.landmarks[name] = tree.query(fitted + correction.at(fitted)).point;
-  }
+  if (!missing.empty()) place_missing(missing, given, known, scan, tree, completed.landmarks);
+  problems = problems_at_the_fold(completed.landmarks);
+  if (!problems.empty()) refuse_all(source, problems);
   return completed;
 }
 

@@ -27,6 +27,7 @@ struct CompletedLandmarks {
 ///    inside out);
 ///  * a landmark 4 cm or more from the place that all the others predict; where the scan has no
 ///    depth, that (flat_problem);
+///  * landmarks of the fold from nose to mouth in wrong places (fold_landmark_problems);
 ///  * something is missing and fewer than three of the given are known to the canonical face, or
 ///    they lie nearly on a line; or a missing one is unknown to it.
 CompletedLandmarks complete_landmarks(const io::Landmarks& given,
@@ -37,7 +38,7 @@ CompletedLandmarks complete_landmarks(const io::Landmarks& given,
 CompletedLandmarks complete_landmarks(const io::Landmarks& given, const TriMesh& scan,
                                       const std::string& source = "landmarks");
 
-/// The names of `given` that the canonical face does not know: the user's own, or misspelt.
+/// The names of `given` that are not known (face::is_known_landmark): the user's own, or misspelt.
 std::vector<std::string> unknown_landmarks(const io::Landmarks& given);
 
 /// `landmarks.unknown` for such names (one or more): lists some of them, and where to find the

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 #include <array>
-#include <vector>
 
+#include "hyperex/anatomy/fold_profile.hpp"
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 
 namespace hyperex::metrics {
 
-/// The groove of a profile: heights at equal steps, mm.
-struct Groove {
-  double depth_mm = 0;  ///< 0: none
-  double place_mm = 0;  ///< of its deepest point, along the profile from its first sample
-};
-
-/// The greatest distance of the profile below a straight line between two of its own points, which
-/// are 2 to 20 mm apart. Samples that are NaN end the profile.
-Groove groove_of(const std::vector<double>& height_mm, double step_mm);
+using anatomy::Groove;
+using anatomy::groove_of;
 
 /// The fold from nose to mouth (nasolabial fold) where a cut crosses it.
 struct FoldCut {

@@ -11,6 +11,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/metrics/regions.hpp"
@@ -40,6 +41,8 @@ Pairing pairing(const io::Landmarks& landmarks) {
   const auto& canonical = face::canonical_face();
   Pairing found;
   for (const auto& [name, p] : landmarks) {
+    // Folds are not alike on both sides, least of all where a face is ill.
+    if (face::is_optional_landmark(name)) continue;
     const std::string other = face::mirrored_landmark(name);
     if (other == name) {
       if (canonical.landmarks.contains(name)) found.pairs.push_back({p, p});

@@ -30,7 +30,8 @@ struct MidsagittalPlane {
 /// landmarks match themselves. Weighted least squares, with Cauchy weights in ten rounds. For
 /// ordered pairs (a, b), relative to their common mean m, the normal is the eigenvector of sum w (a
 /// b' + b a') / 2 with the least eigenvalue, and offset = normal . m. Pairs are given by
-/// mirrored_landmark() of the canonical face. Throws InputError if there are fewer than two pairs.
+/// mirrored_landmark() of the canonical face; landmarks of the folds (face::optional_landmarks) do
+/// not count. Throws InputError if there are fewer than two pairs.
 MidsagittalPlane landmark_plane(const io::Landmarks& landmarks);
 
 /// landmark_plane(), refined by matching the reflected surface with the surface itself, by

@@ -55,7 +55,7 @@ SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
           .norm();
   const DrivenMotion driven = driven_motion(performance, mesh.skin_upper_margin);
   const simulate::MuscleOptions options;
-  const Points registered = simulate::registered_shapes(options, landmarks, skin);
+  const Points registered = simulate::registered_shapes(options, landmarks, performance.skin_rest);
   SkinUncertainty out{Eigen::VectorXf(skin.rows()), Eigen::VectorXf(skin.rows())};
   for (Eigen::Index from = 0; from < skin.rows(); from += most) {
     const Eigen::Index rows = std::min(most, skin.rows() - from);

@@ -10,6 +10,7 @@
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/scene/keys.hpp"
 
@@ -34,6 +35,7 @@ const std::vector<std::string>& landmark_parts() {
     std::set<std::string> all;
     for (const auto& entry : face::canonical_face().landmarks)
       if (!face::ibug_number(entry.first)) all.insert(sided(entry.first).part);
+    for (const std::string& name : face::optional_landmarks()) all.insert(sided(name).part);
     return std::vector<std::string>(all.begin(), all.end());
   }();
   return parts;
@@ -42,21 +44,21 @@ const std::vector<std::string>& landmark_parts() {
 }  // namespace
 
 std::string nearest_landmark(const std::string& name) {
-  const auto& known = face::canonical_face().landmarks;
-  if (known.contains(name)) return "";
+  if (face::is_known_landmark(name)) return "";
   if (const int k = number_at_end(name); k >= 0) {
     const std::string ibug = face::ibug(k);
     const std::string stem =
         lower_case(name).substr(0, lower_case(name).find_last_not_of("0123456789") + 1);
     const std::set<std::string> stems = {"", "p", "point_", "ibug", "ibug_", "ibug-", "ibug68"};
-    return stems.contains(stem) && known.contains(ibug) ? ibug : "";
+    return stems.contains(stem) && face::is_known_landmark(ibug) ? ibug : "";
   }
   const SidedName given = sided(name);
   const std::string near = nearest_part(given.part, landmark_parts());
   if (near.empty()) return "";
   // One that exists on two sides, given without its side, is not guessed.
-  if (const std::string whole = near + given.side; known.contains(whole)) return whole;
-  return given.side.empty() && known.contains(near + "_L") ? near + "_L or " + near + "_R" : "";
+  if (const std::string whole = near + given.side; face::is_known_landmark(whole)) return whole;
+  return given.side.empty() && face::is_known_landmark(near + "_L") ? near + "_L or " + near + "_R"
+                                                                    : "";
 }
 
 std::string did_you_mean(const std::string& name, const std::vector<std::string>& there_are) {
@@ -64,7 +66,7 @@ std::string did_you_mean(const std::string& name, const std::vector<std::string>
     return std::find(there_are.begin(), there_are.end(), one) != there_are.end();
   };
   // A landmark's name is not misspelt: only its other name is the same point.
-  if (face::canonical_face().landmarks.contains(name)) {
+  if (face::is_known_landmark(name)) {
     const std::string other = face::other_name(name);
     return is_there(other) ? fmt::format("; did you mean {}?", other) : "";
   }

@@ -10,6 +10,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/lip_line.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/scan.hpp"
 #include "support/note_matchers.hpp"
@@ -161,6 +162,65 @@ TEST(UnknownLandmarks, AreNamedTheLikelyMistakesFirst) {
   EXPECT_THAT(unknown_landmarks_note(unknown_landmarks(given)),
               ::testing::AllOf(test::says("31 landmarks"), test::says(": exocantion_R, M10, M11, "),
                                test::says("M28 and 11 more;")));
+}
+
+TEST(UnknownLandmarks, DoNotCountThoseOfTheFold) {
+  io::Landmarks given = only(embedded_face().landmarks, kSeven);
+  for (const std::string& name : face::optional_landmarks()) given[name] = Vec3::Zero();
+  EXPECT_TRUE(unknown_landmarks(given).empty());
+  given["nasolabial_fold"] = Vec3::Zero();
+  EXPECT_THAT(unknown_landmarks(given), ::testing::ElementsAre("nasolabial_fold"));
+}
+
+/// All landmarks of the embedded face, with those of its left fold on the skin.
+io::Landmarks with_left_fold() {
+  const EmbeddedFace face = embedded_face();
+  io::Landmarks landmarks = face.landmarks;
+  const SurfaceTree tree(face.mesh);
+  const Vec3 wing = landmarks.at("ibug68_35"), corner = landmarks.at("ibug68_54");
+  landmarks["nasolabial_fold_upper_L"] = tree.query(wing + Vec3(0.005, 0.005, 0)).point;
+  landmarks["nasolabial_fold_middle_L"] =
+      tree.query((wing + corner) / 2 + Vec3(0.008, 0.002, 0)).point;
+  landmarks["nasolabial_fold_lower_L"] = tree.query(corner + Vec3(0.01, 0, 0)).point;
+  return landmarks;
+}
+
+TEST(LandmarksOfTheFold, AreKeptAndNeverPlaced) {
+  const EmbeddedFace face = embedded_face();
+  const io::Landmarks given = with_left_fold();
+  EXPECT_EQ(complete_landmarks(given, face.mesh).landmarks, given);
+  io::Landmarks few = only(given, kSeven);
+  few["nasolabial_fold_upper_L"] = given.at("nasolabial_fold_upper_L");
+  const CompletedLandmarks completed = complete_landmarks(few, face.mesh);
+  EXPECT_EQ(completed.landmarks.at("nasolabial_fold_upper_L"), given.at("nasolabial_fold_upper_L"));
+  EXPECT_FALSE(completed.landmarks.contains("nasolabial_fold_lower_L"));
+  EXPECT_FALSE(completed.landmarks.contains("nasolabial_fold_upper_R"));
+}
+
+TEST(LandmarksOfTheFold, InWrongPlacesAreRefused) {
+  const EmbeddedFace face = embedded_face();
+  const io::Landmarks good = with_left_fold();
+  const auto expect_told = [&](const io::Landmarks& given, const std::vector<std::string>& parts) {
+    expect_refused([&] { complete_landmarks(given, face.mesh, "l.json"); }, parts);
+  };
+  io::Landmarks given = good;
+  given["nasolabial_fold_upper_R"] = good.at("nasolabial_fold_upper_L");
+  expect_told(given, {"l.json: landmark nasolabial_fold_upper_R lies ",
+                      " mm beyond the middle of the face", "the subject's own right"});
+  given = good;
+  given["nasolabial_fold_lower_L"] = good.at("exocanthion_L");
+  expect_told(given, {"landmark nasolabial_fold_lower_L is ", " mm from the corner of the mouth",
+                      "at most 30 mm"});
+  given = good;
+  std::swap(given["nasolabial_fold_upper_L"], given["nasolabial_fold_lower_L"]);
+  expect_told(given, {"nasolabial_fold_upper_L"});
+  given = good;  // both within reach of their places, and turned round
+  given["nasolabial_fold_upper_L"] = good.at("ibug68_35") + Vec3(0.008, -0.012, -0.004);
+  given["nasolabial_fold_lower_L"] = good.at("ibug68_54") + Vec3(0.006, 0.022, 0);
+  expect_told(given, {"nasolabial_fold_upper_L lies below nasolabial_fold_lower_L"});
+  given = good;
+  given["nasolabial_fold_middle_L"] += Vec3(0, 0, 0.05);
+  expect_told(given, {"landmark nasolabial_fold_middle_L is ", " mm from the scan's surface"});
 }
 
 TEST(CompleteLandmarks, NeedsThreeKnownOnesOffOneLine) {

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "unit/metrics/mirrored_face.hpp"
 
 namespace hyperex::metrics {
@@ -75,6 +76,17 @@ TEST(Midsagittal, ABadLandmarkCountsLittle) {
   Face face = testing::mirrored_face();
   face.landmarks.at("ibug68_4") += Vec3(0.03, 0.02, 0);
   EXPECT_LT(degrees_between(landmark_plane(face.landmarks).normal, Vec3::UnitX()), 0.3);
+}
+
+// A fold may have its place on one side alone.
+TEST(Midsagittal, LandmarksOfTheFoldsDoNotCount) {
+  Face face = testing::mirrored_face();
+  const MidsagittalPlane before = landmark_plane(face.landmarks);
+  for (const std::string& name : face::optional_landmarks())
+    face.landmarks[name] = face.landmarks.at("cheek_L") + Vec3(0, 0.01, 0);
+  const MidsagittalPlane after = landmark_plane(face.landmarks);
+  EXPECT_EQ(after.normal, before.normal);
+  EXPECT_EQ(after.offset_m, before.offset_m);
 }
 
 TEST(Midsagittal, ASurfaceOfOneSideLeavesItToTheLandmarks) {

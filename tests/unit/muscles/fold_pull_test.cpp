@@ -8,6 +8,7 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/node_areas.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
@@ -58,6 +59,95 @@ TEST_F(FoldPull, TheLineRunsOnTheSkinFromBesideTheNoseToBesideTheMouth) {
       }
     }
   }
+}
+
+/// Of the skin of `a_face()`: the place beside a point of the line that the rule gives, off it by
+/// so much outwards and up, mm.
+Vec3 beside_fold(double share, double out_mm, double up_mm, bool left) {
+  const test::AFace& face = test::a_face();
+  const face::FaceFrame frame = face::face_frame(face.landmarks);
+  const Points line = nasolabial_fold(face.mesh, face.landmarks, left);
+  const Vec3 at = line.row(Eigen::Index(std::lround(share * double(line.rows() - 1))));
+  const double out_m = (left ? 1e-3 : -1e-3) * out_mm;
+  return SurfaceTree(face.mesh.volume.outer)
+      .query(at + out_m * frame.x + 1e-3 * up_mm * frame.y)
+      .point;
+}
+
+double distance_mm(const Points& line, const Vec3& p) {
+  MuscleLine as_muscle;
+  as_muscle.line = line;
+  as_muscle.arc = arc_of(line);
+  return 1e3 * nearest_on_line(as_muscle, p).distance_m;
+}
+
+TEST(LineOfTheFold, PassesThroughTheGivenLandmarksOnTheSkin) {
+  const test::AFace& face = test::a_face();
+  const SurfaceTree skin(face.mesh.volume.outer);
+  for (const bool left : {true, false})
+    for (const double share : {0.5, 0.35}) {
+      io::Landmarks landmarks = face.landmarks;
+      const auto give = [&](face::FoldPoint point, const Vec3& at) {
+        landmarks[face::fold_landmark(point, left)] = at;
+        return at;
+      };
+      const Vec3 upper = give(face::FoldPoint::upper, beside_fold(0, 3, 2, left));
+      const Vec3 middle = give(face::FoldPoint::middle, beside_fold(share, 4, 0, left));
+      const Vec3 lower = give(face::FoldPoint::lower, beside_fold(1, -4, -3, left));
+      const Points line = nasolabial_fold(face.mesh, landmarks, left);
+      EXPECT_LT((line.row(0).transpose() - upper).norm(), 1e-9);
+      EXPECT_LT((line.row(line.rows() - 1).transpose() - lower).norm(), 1e-9);
+      EXPECT_LT(distance_mm(line, middle), 0.3) << share;
+      EXPECT_GT(distance_mm(nasolabial_fold(face.mesh, face.landmarks, left), middle), 1.5);
+      for (Eigen::Index i = 0; i < line.rows(); ++i)
+        EXPECT_LT(skin.query(line.row(i)).squared_distance, 1e-18);
+    }
+}
+
+TEST(LineOfTheFold, HasItsBowFromTheRuleBetweenTwoGivenEnds) {
+  const test::AFace& face = test::a_face();
+  io::Landmarks landmarks = face.landmarks;
+  const Vec3 upper = beside_fold(0, 3, 0, true), lower = beside_fold(1, 3, 0, true);
+  landmarks["nasolabial_fold_upper_L"] = upper;
+  landmarks["nasolabial_fold_lower_L"] = lower;
+  const Points line = nasolabial_fold(face.mesh, landmarks, true);
+  EXPECT_LT((line.row(0).transpose() - upper).norm(), 1e-9);
+  EXPECT_LT((line.row(line.rows() - 1).transpose() - lower).norm(), 1e-9);
+  // Moved outwards with both of its ends.
+  EXPECT_LT(distance_mm(line, beside_fold(0.5, 3, 0, true)), 1.5);
+}
+
+TEST(LineOfTheFold, LeavesTheOtherSideAndWhatIsNotGiven) {
+  const test::AFace& face = test::a_face();
+  const Points right = nasolabial_fold(face.mesh, face.landmarks, false),
+               left = nasolabial_fold(face.mesh, face.landmarks, true);
+  io::Landmarks landmarks = face.landmarks;
+  landmarks["nasolabial_fold_upper_L"] = beside_fold(0, 3, 2, true);
+  EXPECT_EQ(nasolabial_fold(face.mesh, landmarks, false), right);
+  const Points one_end = nasolabial_fold(face.mesh, landmarks, true);
+  EXPECT_GT((one_end.row(0) - left.row(0)).norm(), 0.0015);
+  EXPECT_EQ(one_end.row(left.rows() - 1), left.row(left.rows() - 1));
+  landmarks["nasolabial_fold_middle_L"] = beside_fold(0.5, 4, 0, true);
+  landmarks["nasolabial_fold_lower_L"] = beside_fold(1, 4, 0, true);
+  EXPECT_EQ(nasolabial_fold(face.mesh, landmarks, false), right);
+}
+
+TEST(LineOfTheFold, PlacesWhatIsNotGiven) {
+  const test::AFace& face = test::a_face();
+  const io::Landmarks all = fold_places(face.mesh, face.landmarks);
+  ASSERT_EQ(all.size(), face::optional_landmarks().size());
+  for (const bool left : {true, false}) {
+    const Points line = nasolabial_fold(face.mesh, face.landmarks, left);
+    const auto at = [&](face::FoldPoint point) { return all.at(face::fold_landmark(point, left)); };
+    EXPECT_EQ(at(face::FoldPoint::upper), line.row(0).transpose());
+    EXPECT_LT(distance_mm(line, at(face::FoldPoint::middle)), 1e-6);
+    EXPECT_EQ(at(face::FoldPoint::lower), line.row(line.rows() - 1).transpose());
+  }
+  io::Landmarks some = face.landmarks;
+  some["nasolabial_fold_middle_R"] = all.at("nasolabial_fold_middle_R");
+  const io::Landmarks others = fold_places(face.mesh, some);
+  EXPECT_EQ(others.size(), all.size() - 1);
+  EXPECT_FALSE(others.contains("nasolabial_fold_middle_R"));
 }
 
 TEST_F(FoldPull, DrawsTheSkinTowardsTheOriginAndIntoTheTissue) {

@@ -15,6 +15,8 @@ TEST(NearestLandmark, FindsTheSlipAndKeepsTheSide) {
                                      {"exocanthion_right", "exocanthion_R"},
                                      {"Nasion", "nasion"},
                                      {"pogonoin", "pogonion"},
+                                     {"nasolabial_fold_uper_L", "nasolabial_fold_upper_L"},
+                                     {"nasolabial_fold_middle_right", "nasolabial_fold_middle_R"},
                                      {"ibug_48", "ibug68_48"},
                                      {"54", "ibug68_54"}})
     EXPECT_EQ(nearest_landmark(given), meant) << given;
@@ -22,7 +24,8 @@ TEST(NearestLandmark, FindsTheSlipAndKeepsTheSide) {
 
 TEST(NearestLandmark, GuessesNoSideAndNothingFarOff) {
   EXPECT_EQ(nearest_landmark("cheilion"), "cheilion_L or cheilion_R");
-  for (const char* name : {"my_own_mark", "ibug68_99", "scar_12", "cheilion_L", "", "x"})
+  for (const char* name :
+       {"my_own_mark", "ibug68_99", "scar_12", "cheilion_L", "nasolabial_fold_lower_R", "", "x"})
     EXPECT_EQ(nearest_landmark(name), "") << name;
 }
 

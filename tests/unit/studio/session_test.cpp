@@ -332,6 +332,41 @@ TEST_F(StudioSession, MovesLandmarksOnTheSkinAndMakesTheFaceAnew) {
   for (int k = 0; k < 3; ++k) EXPECT_NEAR(position()[k], before[k], 1e-6);
 }
 
+/// The place of a landmark that the page was sent; empty where it has none of that name.
+std::vector<double> place_in(const Message* face, const std::string& landmark) {
+  for (const json& one : face->head["landmarks"])
+    if (one["name"] == landmark) return one["position"].get<std::vector<double>>();
+  return {};
+}
+
+TEST_F(StudioSession, OffersTheLandmarksOfTheFoldWhereTheRulePutsThem) {
+  open();
+  const std::string name = "nasolabial_fold_middle_L";
+  std::vector<double> at = place_in(event("face"), name);
+  ASSERT_EQ(at.size(), 3u);
+  EXPECT_THAT(event("face")->head["replay"]["point_words"][name].get<std::string>(),
+              HasSubstr("fold from nose to mouth"));
+  json answer = ask("move_landmark", {{"name", name}, {"position", {-at[0], at[1], at[2]}}});
+  ASSERT_FALSE(answer["warnings"].empty());
+  EXPECT_THAT(answer["warnings"][0].get<std::string>(), HasSubstr("beyond the middle of the face"));
+  answer = ask("move_landmark", {{"name", name}});
+  EXPECT_EQ(answer["warnings"], json::array());
+  for (int k = 0; k < 3; ++k)
+    EXPECT_NEAR(answer["position"][std::size_t(k)].get<double>(), at[std::size_t(k)], 1e-9);
+  at[0] += 0.003;
+  answer = ask("move_landmark", {{"name", name}, {"position", at}});
+  EXPECT_EQ(answer["warnings"], json::array());
+  const std::vector<double> moved = answer["position"];
+  EXPECT_FALSE(ask("landmarks_done").contains("error"));
+  work();
+  const std::vector<double> now = place_in(event("face"), name);
+  ASSERT_EQ(now.size(), 3u);
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(now[k], moved[k], 1e-6);
+  const std::string kept = read_file(folder_.path() / "own" / "landmarks-1.mrk.json");
+  EXPECT_THAT(kept, HasSubstr(name));
+  EXPECT_THAT(kept, testing::Not(HasSubstr("nasolabial_fold_upper_L"))) << "the rule's stay a rule";
+}
+
 /// The ids of the remarks in the last event of a name.
 std::vector<std::string> remark_ids(const Message* event) {
   std::vector<std::string> ids;

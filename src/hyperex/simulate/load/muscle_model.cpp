@@ -75,8 +75,8 @@ void MuscleModel::add_fold(const std::vector<muscles::TemplateMuscle>& muscles,
   for (std::size_t m = 0; m < lines_.size(); ++m)
     if (muscles[lines_[m].row].ends_in_fold()) with_fold.push_back(Eigen::Index(m));
   if (with_fold.empty()) return;
-  const Points fold[2] = {muscles::nasolabial_fold(mesh_, landmarks, false),
-                          muscles::nasolabial_fold(mesh_, landmarks, true)};
+  const Points fold[2] = {muscles::nasolabial_fold(mesh_, landmarks, false, shape.from_rest),
+                          muscles::nasolabial_fold(mesh_, landmarks, true, shape.from_rest)};
   Eigen::MatrixXd pull(force_.rows(), Eigen::Index(with_fold.size()));
   tbb::parallel_for(Eigen::Index(0), pull.cols(), [&](Eigen::Index k) {
     const Eigen::Index m = with_fold[std::size_t(k)];
