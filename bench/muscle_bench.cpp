@@ -6,11 +6,10 @@
 // contact of the lips; teeth=1, eyes=1: contact of the tissue with the teeth (an average arch if
 // none are scanned) and of the lids with the eyeballs. muscles=FILE: with these muscles of the
 // template; write=FOLDER: writes the skin at the peak (NAME_7.ply); coverage=1: prints how often
-// the truth lies in the 95 % ellipsoid of the shapes' posterior. shape_registered=1: a registration
-// carries the shapes; still=1: prints what moves on the still side of kOneSided. CASES has lines
-// "name scene truth 7|all", or "name scene - markers" for the recording of markers. Prints errors
-// over parts of the face at the peak, as shares of the error of the warp. bench/rig_cases.py makes
-// truths for other expressions of a rig.
+// the truth lies in the 95 % ellipsoid of the shapes' posterior. still=1: prints what moves on the
+// still side of kOneSided. CASES has lines "name scene truth 7|all", or "name scene - markers" for
+// the recording of markers. Prints errors over parts of the face at the peak, as shares of the
+// error of the warp. bench/rig_cases.py makes truths for other expressions of a rig.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -90,7 +89,7 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("midline", m.shape.midline_m, mm);
   take("fold_width", m.fold.width_mm);
   take("fold_inwards", m.fold.inwards_deg);
-  if (has("fold_from_rest")) m.fold.from_rest = true;
+  if (has("fold_by_rule")) m.fold.from_rest = false;
   take("widening", m.widening);
   take("half", m.half);
   take("sigma", m.few_sigma_m, mm);
@@ -112,7 +111,6 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("shape_smoothing", m.shape_smoothing_m, mm);
   take("shape_clear", m.shape_clear_m, mm);
   take("shape_reach", m.shape_reach_m, mm);
-  m.shapes_registered = has("shape_registered");
   return o;
 }
 
@@ -150,11 +148,8 @@ simulate::ShapePosterior posterior_of(const simulate::Performance& p,
   take("misfit_length", options.misfit_length_m, 1e-3);
   take("point", options.point_m, 1e-3);
   const metrics::DrivenMotion driven = metrics::driven_motion(p, upper_margin);
-  simulate::MuscleOptions muscles;
-  muscles.shapes_registered = has("shape_registered");
-  const simulate::CarriedShapes shapes(
-      places.rest, places.upper_margin, landmarks, driven.points, muscles.shape_sigma_m,
-      simulate::registered_shapes(muscles, landmarks, p.skin_rest));
+  const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, driven.points,
+                                       simulate::MuscleOptions{}.shape_sigma_m);
   return simulate::ShapePosterior(shapes, places, driven.places, options);
 }
 

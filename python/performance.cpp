@@ -87,16 +87,16 @@ void bind_muscles(py::module_& m) {
       .def(
           "different_from_zero",
           [](const MuscleCourse& self, py::ssize_t sample) {
-            return muscles_in(self, sample, [&](Eigen::Index m, Eigen::Index k) {
-              return simulate::differs_from_zero(self.activation(m, k), self.sigma(m, k));
+            return muscles_in(self, sample, [&](Eigen::Index row, Eigen::Index k) {
+              return simulate::differs_from_zero(self.activation(row, k), self.sigma(row, k));
             });
           },
           "sample"_a, "Names of the muscles whose 95 % interval leaves 0 out.")
       .def(
           "mostly_prior",
           [](const MuscleCourse& self, py::ssize_t sample) {
-            return muscles_in(self, sample, [&](Eigen::Index m, Eigen::Index k) {
-              return !simulate::muscle_words(self, m, k).empty();
+            return muscles_in(self, sample, [&](Eigen::Index row, Eigen::Index k) {
+              return !simulate::muscle_words(self, row, k).empty();
             });
           },
           "sample"_a,

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <map>
 
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 
@@ -29,6 +30,8 @@ constexpr double kManyShare = 1.0 / 3;
 
 constexpr const char* kRemedy =
     "correct it, or remove it from the landmarks: the program then places it";
+constexpr const char* kRemedyOfFold =
+    "correct it, or remove it from the landmarks: a rule then leads the fold";
 
 struct Doubt {
   double weight = 0;  ///< for the order, mm
@@ -148,8 +151,9 @@ std::vector<Note> landmark_doubts(const io::Landmarks& given, const TriMesh& sca
     return notes;
   }
   for (const auto& [name, doubt] : order)
-    notes.push_back(doubtful(
-        fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, ", and "), kRemedy)));
+    notes.push_back(
+        doubtful(fmt::format("landmark {} is {}: {}", name, fmt::join(doubt.reasons, ", and "),
+                             face::is_optional_landmark(name) ? kRemedyOfFold : kRemedy)));
   return notes;
 }
 

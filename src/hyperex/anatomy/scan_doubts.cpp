@@ -11,6 +11,7 @@
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/anatomy/known_landmarks.hpp"
 #include "hyperex/face/face_frame.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/transform.hpp"
@@ -34,11 +35,13 @@ constexpr std::size_t kFewestPlaces = 4, kFewestOfHalf = 2;
 // Fewer places or nearer to a line lay the face on the scan too loosely to judge its other half.
 constexpr double kLeastSpreadOfHalf = 0.3;
 // Half a face fitted to a shallower scan turns about the vertical axis, so that the other half
-// leaves it. True halves have 0.42 or more (docs/landmarks.md).
+// leaves it.
 constexpr double kLeastNoseOfHalves = 0.3;
 
 /// Nothing: in the midline, or not known.
 std::optional<HalfFace> half_of(const std::string& name) {
+  if (face::is_optional_landmark(name))
+    return name.ends_with("_L") ? HalfFace::left : HalfFace::right;
   const CanonicalFace& face = canonical_face();
   if (!face.landmarks.contains(name) || mirrored_landmark(name) == name) return std::nullopt;
   return face.landmark(name, face.mesh.points).x() > 0 ? HalfFace::left : HalfFace::right;

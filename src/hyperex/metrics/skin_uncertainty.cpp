@@ -54,8 +54,6 @@ SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
           .rowwise()
           .norm();
   const DrivenMotion driven = driven_motion(performance, mesh.skin_upper_margin);
-  const simulate::MuscleOptions options;
-  const Points registered = simulate::registered_shapes(options, landmarks, performance.skin_rest);
   SkinUncertainty out{Eigen::VectorXf(skin.rows()), Eigen::VectorXf(skin.rows())};
   for (Eigen::Index from = 0; from < skin.rows(); from += most) {
     const Eigen::Index rows = std::min(most, skin.rows() - from);
@@ -63,7 +61,7 @@ SkinUncertainty skin_uncertainty(const simulate::Performance& performance,
     const simulate::MovedPlaces places{
         skin.middleRows(from, rows), motion_m.segment(from, rows), {margin, margin + rows}};
     const simulate::CarriedShapes shapes(places.rest, places.upper_margin, landmarks, driven.points,
-                                         options.shape_sigma_m, registered);
+                                         simulate::MuscleOptions{}.shape_sigma_m);
     const simulate::ShapePosterior posterior(shapes, places, driven.places);
     out.distance_mm.segment(from, rows) = (1e3 * posterior.distance_m()).cast<float>();
     out.determined.segment(from, rows) = posterior.determined().cast<float>();

@@ -32,8 +32,8 @@ constexpr double kUpper_mm[2] = {4.5, 5}, kLower_mm[2] = {10, 0}, kBow_mm = 1.5;
 /// end, a curve through all three would bend too much.
 constexpr double kLeastShare = 0.2;
 
-/// Cuts in which the groove at rest is the fold's. Of four faces with a smile, three are 2.0 to 2.5
-/// mm deep there; on the fourth, and on the canonical face, what is 1.0 to 1.6 mm deep is not the
+/// Cuts in which the groove at rest is the fold's. Of four faces with a smile, three are 2.1 to 2.5
+/// mm deep there; on the fourth, and on the canonical face, what is 1.2 to 1.6 mm deep is not the
 /// fold.
 constexpr double kRestShares[] = {0.2, 0.3, 0.4};
 constexpr double kRestDepth_mm = 1.75, kFarthestShift_mm = 6;

@@ -17,7 +17,7 @@ struct FoldShape {
   double width_mm = 2.5;    ///< weight exp(-(d / width)^2) at distance d; on the template's face
   double inwards_deg = 30;  ///< angle of the pull below the skin's tangent plane, into the tissue
   /// Whether a groove that the skin has at rest shifts the line of its side (groove_at_rest()).
-  bool from_rest = false;
+  bool from_rest = true;
   bool operator==(const FoldShape&) const = default;
 };
 

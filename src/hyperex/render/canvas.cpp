@@ -89,7 +89,10 @@ void Canvas::fill(const std::vector<std::array<Eigen::Vector2d, 4>>& cells, cons
                   double opacity) {
   cairo_set_source_rgba(impl_->cairo, colour.r, colour.g, colour.b, opacity);
   cairo_new_path(impl_->cairo);
-  for (const auto& corners : cells) {
+  for (auto corners : cells) {
+    // Cells of opposite orientation that overlap would cancel.
+    const Eigen::Vector2d a = corners[2] - corners[0], b = corners[3] - corners[1];
+    if (a.x() * b.y() < a.y() * b.x()) std::ranges::reverse(corners);
     cairo_move_to(impl_->cairo, corners[0].x(), corners[0].y());
     for (std::size_t k = 1; k < corners.size(); ++k)
       cairo_line_to(impl_->cairo, corners[k].x(), corners[k].y());

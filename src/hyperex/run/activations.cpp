@@ -41,8 +41,7 @@ void add_group(const simulate::MuscleCourse& muscles, Eigen::Index row, Eigen::I
   auto& group = groups[name.substr(0, name.size() - 2)];
   group["activation"][side] = muscles.group_activation(row, at);
   group["sigma"][side] = muscles.group_sigma(row, at);
-  group["determined"][side] =
-      simulate::determined_share(muscles.group_sigma(row, at), muscles.group_prior_sigma(row, at));
+  group["determined"][side] = simulate::group_share(muscles, row, at);
   if (std::string words = simulate::group_words(muscles, row, at); !words.empty())
     group["note"][side] = std::move(words);
 }

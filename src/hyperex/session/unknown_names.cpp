@@ -41,6 +41,12 @@ const std::vector<std::string>& landmark_parts() {
   return parts;
 }
 
+/// Whether several parts begin with these words: which is meant is not guessed.
+bool begins_several(const std::string& part) {
+  const auto begins = [&](const std::string& p) { return p.starts_with(lower_case(part) + "_"); };
+  return std::ranges::count_if(landmark_parts(), begins) > 1;
+}
+
 }  // namespace
 
 std::string nearest_landmark(const std::string& name) {
@@ -54,7 +60,7 @@ std::string nearest_landmark(const std::string& name) {
   }
   const SidedName given = sided(name);
   const std::string near = nearest_part(given.part, landmark_parts());
-  if (near.empty()) return "";
+  if (near.empty() || begins_several(given.part)) return "";
   // One that exists on two sides, given without its side, is not guessed.
   if (const std::string whole = near + given.side; face::is_known_landmark(whole)) return whole;
   return given.side.empty() && face::is_known_landmark(near + "_L") ? near + "_L or " + near + "_R"

@@ -29,14 +29,13 @@ Note left_out_warning(const scene::LeftOutVariant& variant) {
   std::string why = variant.why;
   for (auto at = why.find('\n'); at != std::string::npos; at = why.find('\n', at))
     why.replace(at, 1, "; ");
-  Note note = make_warning(
+  return make_warning(
       "variant.left_out",
       fmt::format("variant {} cannot be run and is left out here; a saved scene keeps it: {}",
                   variant.name.empty()
                       ? fmt::format("number {}", variant.number + 1)
                       : printable(nlohmann::json(variant.name).dump(), most_quoted),
                   why));
-  return note;
 }
 
 }  // namespace hyperex::session

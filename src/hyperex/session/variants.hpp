@@ -30,7 +30,8 @@ struct VariantRun {
 std::vector<VariantRun> prepare_variants(const scene::Scene& scene, const Inputs& inputs,
                                          TissueFields& fields);
 
-/// The warning `variant.left_out`, for whoever has opened the scene without this variant.
+/// The warning `variant.left_out`, for whoever has opened the scene without this variant. It is
+/// about the scene: no face of the session bears this name.
 Note left_out_warning(const scene::LeftOutVariant& variant);
 
 }  // namespace hyperex::session

@@ -342,9 +342,6 @@ struct MuscleOptions {
   bool shape_prior = true;
   double shape_sigma_m = 0.0015, shape_share = 0.7, shape_smoothing_m = 0.008;
   double shape_clear_m = 0.0035, shape_reach_m = 0.012;
-  /// The shapes reach this face by a registration of the canonical face to it; false: by landmarks
-  /// alone (carried_shapes.hpp).
-  bool shapes_registered = false;
   bool operator==(const MuscleOptions&) const = default;
 
   /// The constants above are not options: only members that a scene may change are described.

@@ -120,6 +120,15 @@ TEST(LandmarkDoubts, SeesWhatFloatsOffTheScan) {
               ElementsAre(AllOf(is_doubt_on("pronasale"), says("8.0 mm off the scan"))));
 }
 
+TEST(LandmarkDoubts, PromiseNoPlaceForALandmarkOfTheFold) {
+  const EmbeddedFace face = embedded_face();
+  io::Landmarks given = face.landmarks;
+  given["nasolabial_fold_middle_R"] = face.landmarks.at("alare_R") + Vec3(0, 0, 0.008);
+  EXPECT_THAT(landmark_doubts(given, face.mesh),
+              ElementsAre(AllOf(is_doubt_on("nasolabial_fold_middle_R"),
+                                says("remove it from the landmarks: a rule then leads the fold"))));
+}
+
 TEST(LandmarkDoubts, SaysOfAWrongSetThatItIsWrongAsAWhole) {
   const EmbeddedFace face = embedded_face();
   io::Landmarks given = face.landmarks;

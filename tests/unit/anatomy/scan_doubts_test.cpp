@@ -117,6 +117,7 @@ TEST(ScanDoubts, AMissingHalfIsNotBlamedForOtherLandmarks) {
   EXPECT_FALSE(with("scar", 0.016)) << "one without a side";
   EXPECT_FALSE(with("cheilion_L", 0)) << "one alone";
   EXPECT_FALSE(with("alare_L", 0)) << "half of that side";
+  EXPECT_TRUE(with("nasolabial_fold_middle_L", 0.02)) << "the fold has sides";
 }
 
 /// The face with its depth multiplied.
@@ -144,6 +145,16 @@ TEST(ScanDoubts, NameAScanWithoutDepth) {
   no_nose.erase("pronasale");
   no_nose.erase("ibug68_30");
   EXPECT_FALSE(nose_before_plane(no_nose));
+}
+
+/// Half a face laid on it turns, so that the other half leaves it.
+TEST(ScanDoubts, AShallowScanIsNotJudgedForItsHalves) {
+  const EmbeddedFace face = pressed(0.4);
+  ASSERT_FALSE(flat_problem(face.landmarks));
+  for (const bool left : {false, true})
+    EXPECT_THAT(
+        scan_doubts(on_side(face.landmarks, left), face.landmarks, half_face(face.mesh, left)),
+        IsEmpty());
 }
 
 TEST(ScanDoubts, AFlatSheetIsCompletedAndNamed) {

@@ -85,7 +85,7 @@ TEST(LineOfTheFold, PassesThroughTheGivenLandmarksOnTheSkin) {
   const test::AFace& face = test::a_face();
   const SurfaceTree skin(face.mesh.volume.outer);
   for (const bool left : {true, false})
-    for (const double share : {0.5, 0.35}) {
+    for (const double share : {0.5, 0.35, 0.05}) {
       io::Landmarks landmarks = face.landmarks;
       const auto give = [&](face::FoldPoint point, const Vec3& at) {
         landmarks[face::fold_landmark(point, left)] = at;
@@ -101,6 +101,8 @@ TEST(LineOfTheFold, PassesThroughTheGivenLandmarksOnTheSkin) {
       EXPECT_GT(distance_mm(nasolabial_fold(face.mesh, face.landmarks, left), middle), 1.5);
       for (Eigen::Index i = 0; i < line.rows(); ++i)
         EXPECT_LT(skin.query(line.row(i)).squared_distance, 1e-18);
+      for (Eigen::Index i = 1; i < line.rows(); ++i)
+        EXPECT_LT((line.row(i) - line.row(i - 1)).norm(), 0.006) << "no sharp bend";
     }
 }
 

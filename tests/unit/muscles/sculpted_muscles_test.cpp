@@ -137,7 +137,7 @@ constexpr TwoMuscles kPairs[] = {
     {"buccinator", "buccinator_L", 2.5, 40},
     {"dep_anguli", "depressor_anguli_oris_L", 3, 38},
     {"dep_lab_inf", "depressor_labii_inferioris_L", 2, 8},
-    {"mentalis", "mentalis_L", 2.5, 60},
+    {"mentalis", "mentalis_L", 4, 60},
     {"frontal_med", "frontalis_L", 1.5, 14},
     {"frontal_lat", "frontalis_L", 1.5, 24},
     {"corrugator", "corrugator_supercilii_L", 4, 14},

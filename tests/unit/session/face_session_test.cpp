@@ -21,6 +21,7 @@
 #include "hyperex/session/scene_source.hpp"
 #include "hyperex/session/variants.hpp"
 #include "support/refusal.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -215,6 +216,18 @@ TEST(FaceSession, LeavesOutVariantsThatCannotBeRunWhereItMay) {
   const FaceSession strict(sound, {.certainty = Certainty::on_request, .leave_out_variants = true});
   EXPECT_TRUE(strict.left_out().empty());
   EXPECT_EQ(strict.faces(), 2u);
+}
+
+TEST(FaceSession, LeavesOutVariantsWhoseFilesAreOfAnotherScan) {
+  const test::TemporaryFolder folder;
+  std::ofstream(folder.path() / "young.csv") << "young_kpa\n100\n200\n";
+  const scene::Scene scene =
+      scene_of(kCoarse + kMuscles + "[[variant]]\nname = \"other\"\ntissue.per_vertex = \"" +
+               (folder.path() / "young.csv").string() + "\"\n");
+  EXPECT_THROW(FaceSession(scene, {.certainty = Certainty::on_request}), InputError);
+  const FaceSession face(scene, {.certainty = Certainty::on_request, .leave_out_variants = true});
+  ASSERT_EQ(face.left_out().size(), 1u);
+  EXPECT_EQ(face.left_out()[0].name, "other");
 }
 
 TEST(FaceSession, LeavesOutNothingOfASceneThatIsWrongItself) {

@@ -24,8 +24,8 @@ TEST(NearestLandmark, FindsTheSlipAndKeepsTheSide) {
 
 TEST(NearestLandmark, GuessesNoSideAndNothingFarOff) {
   EXPECT_EQ(nearest_landmark("cheilion"), "cheilion_L or cheilion_R");
-  for (const char* name :
-       {"my_own_mark", "ibug68_99", "scar_12", "cheilion_L", "nasolabial_fold_lower_R", "", "x"})
+  for (const char* name : {"my_own_mark", "ibug68_99", "scar_12", "cheilion_L",
+                           "nasolabial_fold_lower_R", "nasolabial_fold_L", "", "x"})
     EXPECT_EQ(nearest_landmark(name), "") << name;
 }
 

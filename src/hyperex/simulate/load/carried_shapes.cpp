@@ -4,8 +4,6 @@
 #include <algorithm>
 
 #include "hyperex/anatomy/lips.hpp"
-#include "hyperex/anatomy/register_face.hpp"
-#include "hyperex/core/assert.hpp"
 #include "hyperex/expression/shape_model.hpp"
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -20,46 +18,28 @@ constexpr double kOnSkin_m = 0.004, kOffSkin_m = 0.010;  // the cover falls from
 /// The canonical face on this one.
 struct CarriedFace {
   TriMesh mesh;
-  std::vector<Eigen::Matrix3d> turn;  ///< per vertex: of displacements, with the size
-};
+  Eigen::Matrix3d turn;  ///< of displacements, with the size
 
-CarriedFace carried_by_landmarks(const io::Landmarks& landmarks) {
-  const face::CanonicalFace& canonical = face::canonical_face();
-  std::vector<Vec3> from, to;
-  for (const auto& [name, vertices] : canonical.landmarks)
-    if (const auto it = landmarks.find(name); it != landmarks.end()) {
-      from.push_back(canonical.landmark(name, canonical.mesh.points));
-      to.push_back(it->second);
+  explicit CarriedFace(const io::Landmarks& landmarks) {
+    const face::CanonicalFace& canonical = face::canonical_face();
+    std::vector<Vec3> from, to;
+    for (const auto& [name, vertices] : canonical.landmarks)
+      if (const auto it = landmarks.find(name); it != landmarks.end()) {
+        from.push_back(canonical.landmark(name, canonical.mesh.points));
+        to.push_back(it->second);
+      }
+    Points a(Eigen::Index(from.size()), 3), b(a.rows(), 3);
+    for (Eigen::Index i = 0; i < a.rows(); ++i) {
+      a.row(i) = from[std::size_t(i)].transpose();
+      b.row(i) = to[std::size_t(i)].transpose();
     }
-  Points a(Eigen::Index(from.size()), 3), b(a.rows(), 3);
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    a.row(i) = from[std::size_t(i)].transpose();
-    b.row(i) = to[std::size_t(i)].transpose();
+    const Similarity similarity = fit_similarity(a, b);
+    turn = similarity.scale * similarity.rotation;
+    constexpr double same_place_m = 0.0005;
+    const Rbf rbf(a, b, {RbfPolynomial::affine, 0, same_place_m});
+    mesh = {rbf.at_all(canonical.mesh.points), face::opened_triangles(canonical)};
   }
-  const Similarity similarity = fit_similarity(a, b);
-  const Eigen::Matrix3d turn = similarity.scale * similarity.rotation;
-  constexpr double same_place_m = 0.0005;
-  const Rbf rbf(a, b, {RbfPolynomial::affine, 0, same_place_m});
-  const Points& vertices = canonical.mesh.points;
-  return {{rbf.at_all(vertices), face::opened_triangles(canonical)},
-          std::vector<Eigen::Matrix3d>(std::size_t(vertices.rows()), turn)};
-}
-
-/// The turn of a vertex is the rotation that fits best around it.
-CarriedFace carried_by_registration(const Points& registered) {
-  constexpr double around_m = 0.010;  // 1 sigma of the weights
-  const face::CanonicalFace& canonical = face::canonical_face();
-  const Points& vertices = canonical.mesh.points;
-  HX_ASSERT(registered.rows() == vertices.rows());
-  CarriedFace carried{{registered, face::opened_triangles(canonical)}, {}};
-  const double size = fit_similarity(vertices, registered).scale;
-  for (const auto& vertex : vertices.rowwise()) {
-    const Eigen::VectorXd squared = (vertices.rowwise() - vertex).rowwise().squaredNorm();
-    const Eigen::VectorXd near = (-squared.array() / (2 * around_m * around_m)).exp();
-    carried.turn.push_back(size * fit_rigid(vertices, registered, near).linear());
-  }
-  return carried;
-}
+};
 
 /// Per vertex of the canonical face: -1 on the inner border of the lower lip, 1 on the upper's.
 std::vector<int> contour_sides() {
@@ -72,16 +52,13 @@ std::vector<int> contour_sides() {
   return side;
 }
 
-Eigen::MatrixXd shapes_at(const std::vector<Match>& places,
-                          const std::vector<Eigen::Matrix3d>& turn) {
+Eigen::MatrixXd shapes_at(const std::vector<Match>& places, const Eigen::Matrix3d& turn) {
   const Eigen::MatrixXd& shapes = expression::shape_model().displacement;
   Eigen::MatrixXd out = Eigen::MatrixXd::Zero(3 * Eigen::Index(places.size()), shapes.cols());
   for (std::size_t i = 0; i < places.size(); ++i)
-    for (int k = 0; k < 3; ++k) {
-      const int vertex = places[i].point[std::size_t(k)];
+    for (int k = 0; k < 3; ++k)
       out.middleRows<3>(3 * Eigen::Index(i)) +=
-          places[i].weight[k] * turn[std::size_t(vertex)] * shapes.middleRows<3>(3 * vertex);
-    }
+          places[i].weight[k] * turn * shapes.middleRows<3>(3 * places[i].point[std::size_t(k)]);
   return out;
 }
 
@@ -89,10 +66,9 @@ Eigen::MatrixXd shapes_at(const std::vector<Match>& places,
 
 CarriedShapes::CarriedShapes(const Points& nodes, const std::vector<double>& upper_margin,
                              const io::Landmarks& landmarks, const std::vector<DrivenPoint>& points,
-                             double sigma_m, const Points& registered)
+                             double sigma_m)
     : sigma_m_(sigma_m) {
-  const CarriedFace face =
-      registered.rows() > 0 ? carried_by_registration(registered) : carried_by_landmarks(landmarks);
+  const CarriedFace face(landmarks);
   const std::vector<int> vertex_side = contour_sides();
   Points rest(Eigen::Index(points.size()), 3);
   std::vector<int> side;
@@ -116,12 +92,6 @@ Eigen::VectorXd CarriedShapes::weights_for(const Eigen::VectorXd& displacement) 
   Eigen::VectorXd weights = Eigen::VectorXd::Zero(count());
   muscles::bounded_least_squares(information_, seen, Eigen::VectorXd::Zero(count()), weights);
   return weights;
-}
-
-Points registered_shapes(const MuscleOptions& options, const io::Landmarks& landmarks,
-                         const TriMesh& skin) {
-  if (!options.shapes_registered) return {};
-  return anatomy::register_canonical_face(landmarks, skin).points;
 }
 
 }  // namespace hyperex::simulate

@@ -5,24 +5,20 @@
 
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/simulate/drive/drive.hpp"
-#include "hyperex/simulate/options.hpp"
 
 namespace hyperex::simulate {
 
 /// The shapes of real faces (expression/shape_model.hpp), transferred to one face. The transfer
-/// uses the landmarks that this face shares with the canonical face, or a registration of the
-/// canonical face to it. Their weights are estimated from the driven points.
+/// uses the landmarks that this face shares with the canonical face. Their weights are estimated
+/// from the driven points.
 class CarriedShapes {
  public:
   /// `nodes`: n x 3, the places at which the shapes are evaluated; `upper_margin`: of each, as
   /// anatomy::upper_lip_margin(). `points`: the driven points. `sigma_m`: 1 sigma of the error of
-  /// the shapes at a point. `registered`: the vertices of the canonical face on this face
-  /// (|vertices| x 3, m). Each displacement then turns as the surface around its vertex does, and
-  /// the size of the whole face scales it. Empty: the landmarks carry the vertices, and all
-  /// displacements turn alike.
+  /// the shapes at a point.
   CarriedShapes(const Points& nodes, const std::vector<double>& upper_margin,
                 const io::Landmarks& landmarks, const std::vector<DrivenPoint>& points,
-                double sigma_m, const Points& registered = {});
+                double sigma_m);
 
   Eigen::Index count() const { return at_points_.cols(); }
   /// 3 |points| and 3 |nodes| x count(), m: displacement where a shape's weight is 1.
@@ -40,10 +36,5 @@ class CarriedShapes {
   double sigma_m_;
   Eigen::MatrixXd information_;  ///< of the weights, the points seen
 };
-
-/// What CarriedShapes takes as `registered`: where MuscleOptions::shapes_registered, the canonical
-/// face registered to `skin` (anatomy::register_canonical_face); else empty.
-Points registered_shapes(const MuscleOptions& options, const io::Landmarks& landmarks,
-                         const TriMesh& skin);
 
 }  // namespace hyperex::simulate

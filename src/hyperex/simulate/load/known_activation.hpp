@@ -24,7 +24,9 @@ inline constexpr const char* kMostlyPriorWords = "mostly the prior's choice";
 /// kMostlyPriorWords where that is so for a muscle in a sample, else empty. Empty too where its
 /// prior is not known or leaves no choice, as for a gain of 0.
 std::string muscle_words(const MuscleCourse& course, Eigen::Index muscle, Eigen::Index sample);
-/// The same of one of MuscleCourse::groups.
+/// The same of one of MuscleCourse::groups, and its determined_share(): not a number where its
+/// prior is not known.
 std::string group_words(const MuscleCourse& course, Eigen::Index group, Eigen::Index sample);
+double group_share(const MuscleCourse& course, Eigen::Index group, Eigen::Index sample);
 
 }  // namespace hyperex::simulate

@@ -60,8 +60,7 @@ Eigen::VectorXd MuscleFit::sigmas() const {
 }
 
 /// Of the activations before a point is seen.
-Eigen::MatrixXd MuscleFit::prior_covariance() const {
-  const Eigen::VectorXd sigma = sigmas();
+Eigen::MatrixXd MuscleFit::prior_covariance(const Eigen::VectorXd& sigma) const {
   if (priors_.correlation.size() == 0) return sigma.cwiseAbs2().asDiagonal();
   return sigma.asDiagonal() * priors_.correlation * sigma.asDiagonal();
 }
@@ -97,7 +96,7 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     h.bottomLeftCorner(6, muscles) = h.topRightCorner(muscles, 6).transpose();
     h.bottomRightCorner(6, 6) = jaw.transpose() * jaw;
     add_priors(h);
-    last_.prior_covariance = prior_covariance();
+    const Eigen::VectorXd sigma = sigmas();  // before the activations change
     for (int k = 0; k < 6; ++k) h(muscles + k, muscles + k) += 1 / (prior[k] * prior[k]);
     Eigen::VectorXd g(all), x(all);
     g << pulls.transpose() * right, jaw.transpose() * right;
@@ -108,6 +107,7 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
     last_.activation = x.head(muscles);
     last_.jaw = x.tail<6>();
     if (change < 1e-6 || iteration == kMostIterations - 1) {
+      last_.prior_covariance = prior_covariance(sigma);
       last_.covariance =
           h.llt().solve(Eigen::MatrixXd::Identity(all, all)).topLeftCorner(muscles, muscles);
       break;

@@ -77,7 +77,7 @@ class MuscleFit {
   Eigen::MatrixXd precision_;  ///< the inverse of the correlations
   Eigen::MatrixXd blend(const Eigen::MatrixXd& narrow, const Eigen::MatrixXd& wide) const;
   Eigen::VectorXd sigmas() const;
-  Eigen::MatrixXd prior_covariance() const;
+  Eigen::MatrixXd prior_covariance(const Eigen::VectorXd& sigma) const;
   void add_priors(Eigen::MatrixXd& h) const;
   FitResult last_;
 };

@@ -273,8 +273,7 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   const DriveField field(driven.points, unmoved_places(driven.points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
   const CarriedShapes shapes(mesh.volume.outer.points, mesh.upper_margin, landmarks, driven.points,
-                             options.muscles.shape_sigma_m,
-                             registered_shapes(options.muscles, landmarks, mesh.skin));
+                             options.muscles.shape_sigma_m);
   if (between) between();
   const SkinCorrection correction = shape_correction(
       mesh, shapes, field, skin,

@@ -136,7 +136,7 @@ function fansOver(replay: Replay, fans: Vec3[][]): Carried {
   }));
   const object = new Mesh(geometry, new MeshBasicMaterial({ vertexColors: true, side: DoubleSide, opacity: 0.3, ...drawnLast }));
   object.frustumCulled = false;
-  object.renderOrder = 2;
+  object.renderOrder = 1; // under the lines
   const carry = carrier(replay, points, flat);
   return {
     object,
