@@ -21,7 +21,7 @@
 #include "hyperex/session/scene_source.hpp"
 #include "hyperex/session/variants.hpp"
 #include "support/refusal.hpp"
-#include "support/temporary_folder.hpp"
+#include "support/test_file.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -219,7 +219,7 @@ TEST(FaceSession, LeavesOutVariantsThatCannotBeRunWhereItMay) {
 }
 
 TEST(FaceSession, LeavesOutVariantsWhoseFilesAreOfAnotherScan) {
-  const test::TemporaryFolder folder;
+  const TestFolder folder;
   std::ofstream(folder.path() / "young.csv") << "young_kpa\n100\n200\n";
   const scene::Scene scene =
       scene_of(kCoarse + kMuscles + "[[variant]]\nname = \"other\"\ntissue.per_vertex = \"" +
