@@ -5,6 +5,8 @@
 #include <map>
 #include <random>
 
+#include "hyperex/expression/face_model.hpp"
+#include "hyperex/expression/shape_model.hpp"
 #include "hyperex/motion/jitter.hpp"
 #include "hyperex/motion/landmark_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
@@ -246,6 +248,67 @@ TEST(ExpressivePose, OneSideThatSmilesIsHardlyTakenForAMotionOfTheHead) {
   // noise.
   EXPECT_GT(stable.shift_uncertainty_m[30], 2.5e-4);
   EXPECT_LT(errors.beyond, 1);
+}
+
+/// Displacement of a landmark by the shapes of real faces at given weights. A shape of one side
+/// ends in "_L" or "_R".
+Vec3 by_shapes(const std::map<std::string, double>& weights, const std::string& landmark) {
+  const expression::ShapeModel& shapes = expression::shape_model();
+  const std::vector<int>& vertices = expression::canonical_model().landmarks.at(landmark);
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [name, weight] : weights) {
+    const auto column = std::ranges::find(shapes.names, name) - shapes.names.begin();
+    for (const int v : vertices)
+      sum += weight / double(vertices.size()) * shapes.displacement.block<3, 1>(3 * v, column);
+  }
+  return sum;
+}
+
+/// How far the wrong poses move a point of the mouth (ibug68_48 to 67), at most, mm.
+double greatest_shift_of_mouth_mm(const StabilisedMotion& stable, const Motion& motion) {
+  double greatest = 0;
+  for (std::size_t k = 1; k < motion.positions.size(); ++k) {
+    const Eigen::Isometry3d truth =
+        head_at(motion.time_s[k] / 2, true) * head_at(0, true).inverse();
+    const Eigen::Isometry3d wrong = truth.inverse() * stable.motion.head_pose[k];
+    for (int p = 48; p < 68; ++p) {
+      const int row = motion.index_of("ibug68_" + std::to_string(p));
+      if (row < 0) continue;
+      const Vec3 rest = motion.positions[0].row(row).transpose();
+      greatest = std::max(greatest, 1e3 * (wrong * rest - rest).norm());
+    }
+  }
+  return greatest;
+}
+
+/// Disgust: the bridge of the nose goes up by 1.4 mm, its wings by 8 mm, the upper lip by 9 mm, and
+/// the brows down by 4 mm, while the head turns. Hardly any landmark stands still. Over six draws
+/// of the noise a port of the fit to another language gave up to 0.81 degrees and 2.0 mm at the
+/// mouth. All points alike gave 0.81 to 0.84 degrees and 3.0 to 3.3 mm. So the turn is not
+/// compared. The bounds lie about 40 % above. The stated uncertainty, which is to hold for 95 % of
+/// expressions, does not hold for this one: the error was up to 1.4 times as large.
+TEST(ExpressivePose, AWrinkledNoseShiftsTheMouthLessThanAFitOfAllPoints) {
+  const std::map<std::string, double> weights = {{"noseSneer_L", 0.9},    {"noseSneer_R", 0.9},
+                                                 {"browDown_L", 0.6},     {"browDown_R", 0.6},
+                                                 {"mouthUpperUp_L", 0.3}, {"mouthUpperUp_R", 0.3}};
+  const auto disgust = [&](std::size_t i, const Vec3&) {
+    return by_shapes(weights, landmark_motion().names[i]);
+  };
+  for (const auto& [name, up_mm] :
+       {std::pair{"ibug68_28", 1.0}, {"ibug68_31", 4.0}, {"ibug68_51", 4.0}}) {
+    EXPECT_GT(1e3 * by_shapes(weights, name).y(), up_mm) << name;
+  }
+  EXPECT_LT(1e3 * by_shapes(weights, "ibug68_21").y(), -3);
+  for (const Vec3& stretch : {Vec3(1, 1, 1), Vec3(0.93, 1.06, 1.1)}) {
+    const Motion motion = grimace(disgust, true, 5e-5, stretch);
+    const StabilisedMotion stable = stabilise(motion);
+    const Errors errors = errors_of(stable, motion, true);
+    const double mouth_mm = greatest_shift_of_mouth_mm(stable, motion);
+    EXPECT_LT(errors.turn_deg, 1.15);
+    EXPECT_LT(errors.beyond, 1.9);
+    EXPECT_LT(mouth_mm, 2.8);
+    EXPECT_LT(mouth_mm, greatest_shift_of_mouth_mm(stabilise(motion, {motion.names, 0}), motion));
+  }
 }
 
 TEST(ExpressivePose, OnlyThePartThatExpressionsCauseIsWidened) {
