@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Motions: read, made from arrays, prepared and aligned.
+#include <algorithm>
 #include <map>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
+#include "hyperex/session/plausible.hpp"
 #include "hyperex/simulate/drive/alignment.hpp"
 #include "options_class.hpp"
 #include "refuse.hpp"
@@ -88,6 +90,12 @@ simulate::AlignedMotion aligned(const Motion& motion, const io::Landmarks& landm
   return simulate::align(motion, landmarks, from_word<simulate::AlignmentMethod>("method", method));
 }
 
+/// A motion that is still throughout is meant so; a tiny one is probably in another unit.
+bool ever_moves(const Motion& motion) {
+  return std::any_of(motion.positions.begin(), motion.positions.end(),
+                     [&](const Points& sample) { return sample != motion.positions.front(); });
+}
+
 simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& landmarks,
                                  double max_gap_s, const Names& rigid_points, bool still_head,
                                  const std::string& method) {
@@ -100,6 +108,8 @@ simulate::AlignedMotion prepared(const Motion& motion, const io::Landmarks& land
   const Motion steady =
       still_head ? motion::with_still_head(whole).motion : stabilised(whole, rigid_points);
   if (const auto far = session::check_steady(steady)) warn_user({*far});
+  if (ever_moves(motion))
+    if (const auto tiny = session::stillness_warning(steady, false)) warn_user({*tiny});
   return aligned(steady, landmarks, method);
 }
 
@@ -202,7 +212,9 @@ void bind_motion(py::module_& m) {
   m.def("prepare_motion", &prepared, "motion"_a, "landmarks"_a, py::kw_only(), "max_gap_s"_a = 0.2,
         "rigid_points"_a = Names{}, "still_head"_a = false, "method"_a = "nonrigid", Unlocked(),
         "What `hyperex run` does with a recording: wild readings left out (UserWarning) or refused "
-        "(InputError), fill_gaps, stabilise, align.");
+        "(InputError), fill_gaps, stabilise, align. A UserWarning says where no point of a motion "
+        "goes "
+        "0.05 mm: its unit is probably not metres.");
 }
 
 }  // namespace hyperex::python

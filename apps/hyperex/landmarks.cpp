@@ -47,6 +47,9 @@ void run(const LandmarksOptions& options) {
                              io::unit_note(scan));
   const auto colours = tracking::picture_colours(scan);
   const auto found = tracking::find_scan_landmarks(scan.mesh, colours, options.scan.string());
+  if (found.without_colours)
+    std::cerr << fmt::format("{}: its colours hide the face, which was found without them\n",
+                             printable(options.scan.string()));
   if (!options.picture.empty())
     render::write_png(options.picture, tracking::draw_scan_landmarks(
                                            scan.mesh, colours, found,

@@ -139,6 +139,18 @@ tracking::FrameVisitor visitor_of(tracking::PreviewMovie* preview) {
   };
 }
 
+tracking::Tracking track(capture::FrameSource& source, const std::string& name,
+                         const expression::FaceModel& model,
+                         const tracking::TrackerOptions& tracker, const TrackOptions& options,
+                         const tracking::FrameVisitor& visit) {
+  try {
+    return source.live() ? track_live(source, model, tracker, options.seconds, visit)
+                         : tracking::track(source, model, tracker, visit);
+  } catch (const InputError& error) {
+    throw tracking::about_recording(error, name);
+  }
+}
+
 std::vector<std::filesystem::path> outputs_of(const TrackOptions& options) {
   std::vector<std::filesystem::path> files = options.outputs.files();
   files.push_back(options.plots);
@@ -198,9 +210,8 @@ void run(const TrackOptions& options) {
   tracker.network.mirrored_too = !source->live();  // not live: twice the time per frame
   const auto preview = preview_of(options.outputs, model, source->intrinsics());
   const tracking::FrameVisitor visit = visitor_of(preview.get());
-  const tracking::Tracking tracking =
-      source->live() ? track_live(*source, model, tracker, options.seconds, visit)
-                     : tracking::track(*source, model, tracker, visit);
+  const std::string name = options.device.empty() ? recording : options.device;
+  const tracking::Tracking tracking = track(*source, name, model, tracker, options, visit);
   if (preview) preview->finish();
   if (!options.json) {
     for (const auto& note : source->notes()) spdlog::info("{}", note);
@@ -213,9 +224,8 @@ void run(const TrackOptions& options) {
   }
   write_outputs(options.outputs, model, tracking, source->intrinsics(), options.json);
   if (!options.plots.empty()) {
-    report::write_tracking_page(
-        options.plots, {model, tracking, options.device.empty() ? recording : options.device,
-                        options.eye_distance_mm, source->notes()});
+    report::write_tracking_page(options.plots,
+                                {model, tracking, name, options.eye_distance_mm, source->notes()});
     if (!options.json)
       std::cout << fmt::format("written: {} (plots)\n", printable(options.plots.string()));
   }

@@ -162,14 +162,29 @@ const std::vector<Fault> kFaults = {
          cv::imwrite(file.string(), cv::Mat(360, 360, CV_8UC3, cv::Scalar::all(120)));
        });
      },
-     {"no face was found"},
+     {"rec: no face was found"},
      "track rec --out m.csv --trc m.trc"},
+    {"NoFaceBeforeADevice",
+     [](const In& in) {
+       for_each_picture(in("rec/rgb"), [](const fs::path& file) {
+         cv::imwrite(file.string(), cv::Mat(360, 360, CV_8UC3, cv::Scalar::all(120)));
+       });
+     },
+     {"play:rec: no face was found"},
+     "track --device play:rec --out m.csv"},
     {"PhotographWithoutAFace",
      [](const In& in) {
        cv::imwrite(in("wall.png").string(), cv::Mat(200, 300, CV_8UC3, cv::Scalar::all(90)));
      },
-     {"no face was found"},
+     {"wall.png: no face was found"},
      "track wall.png --out m.csv"},
+    {"PhotographTorn",
+     [](const In& in) {
+       fs::copy_file(in("rec/rgb/0.000000.jpg"), in("me.jpg"));
+       tear(in("me.jpg"), 0.3);
+     },
+     {"me.jpg: torn"},
+     "track me.jpg --out m.csv"},
     {"UnknownModel",
      [](const In&) {},
      {"--model", "canonicle", "candide:FILE"},

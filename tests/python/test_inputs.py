@@ -3,6 +3,7 @@ import logging
 import os
 import tempfile
 import unittest
+import warnings
 
 import numpy as np
 
@@ -89,6 +90,28 @@ class WildReadings(unittest.TestCase):
     def test_a_point_that_goes_too_far_is_named(self):
         with self.assertWarnsRegex(UserWarning, "cheilion_L: 38 mm"):
             self.prepared(0.06, 8, 40)
+
+
+class TinyMotion(unittest.TestCase):
+    """Displacements as if kilometres had been given as metres."""
+
+    def prepared(self, factor):
+        motion = hyperex.embedded_mouth_opening(face().landmarks)
+        rest_m = motion.positions_m[:1]
+        positions_m = rest_m + factor * (motion.positions_m - rest_m)
+        return hyperex.prepare_motion(hyperex.Motion(motion.names, motion.time_s, positions_m),
+                                      face().landmarks)
+
+    def test_is_warned_of_once(self):
+        with self.assertWarnsRegex(UserWarning, "nothing moves.*check its unit") as warned:
+            self.prepared(1e-3)
+        self.assertEqual(len(warned.warnings), 1)
+
+    def test_one_that_moves_or_is_meant_to_be_still_is_not(self):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.prepared(1)
+            self.prepared(0)
 
 
 class HeadPose(unittest.TestCase):

@@ -145,8 +145,10 @@ std::string kept_key(const std::string& what, const std::string& bytes) {
 }
 
 std::string bytes_of(const FoundLandmarks& found) {
-  return packed(
-      {{"points", json_of(found.landmarks)}, {"views", found.views}, {"spread_m", found.spread_m}});
+  return packed({{"points", json_of(found.landmarks)},
+                 {"views", found.views},
+                 {"spread_m", found.spread_m},
+                 {"without_colours", found.without_colours}});
 }
 
 std::optional<FoundLandmarks> landmarks_from(const std::string& bytes) {
@@ -155,6 +157,7 @@ std::optional<FoundLandmarks> landmarks_from(const std::string& bytes) {
     found.landmarks = landmarks_in(from.at("points"));
     found.views = from.at("views");
     found.spread_m = from.at("spread_m");
+    found.without_colours = from.at("without_colours");
     return found;
   });
 }
@@ -231,7 +234,8 @@ FoundLandmarks landmarks_on(const io::Scan& scan,
     }
   auto searched = tracking::find_scan_landmarks(scan.mesh, colours, scan.file.string(),
                                                 {.scan_from_canonical = scan_from_canonical});
-  FoundLandmarks found{std::move(searched.landmarks), searched.views, searched.spread_m};
+  FoundLandmarks found{std::move(searched.landmarks), searched.views, searched.spread_m,
+                       searched.without_colours};
   kept.keep(key, bytes_of(found));
   return found;
 }

@@ -24,6 +24,7 @@ struct FoundLandmarks {
   io::Landmarks landmarks;  ///< as tracking::ScanLandmarks has them, bit for bit
   int views = 0;
   double spread_m = 0;
+  bool without_colours = false;
 };
 
 /// tracking::find_scan_landmarks of a scan; `scan_from_canonical`: where its face is roughly known.

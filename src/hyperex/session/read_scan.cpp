@@ -100,8 +100,11 @@ io::Landmarks find_landmarks(const io::Scan& scan, const std::string& why, std::
       "landmarks.found",
       fmt::format(
           "{}: {} were found on the scan in {} pictures, which differ by {:.1f} mm (median) "
-          "from their mean; hyperex landmarks --picture draws them",
-          why, found.landmarks.size(), found.views, 1e3 * found.spread_m)));
+          "from their mean; {}hyperex landmarks --picture draws them",
+          why, found.landmarks.size(), found.views, 1e3 * found.spread_m,
+          found.without_colours ? "the pictures are without the scan's colours, which hide its "
+                                  "face; "
+                                : "")));
   return std::move(found.landmarks);
 }
 

@@ -30,8 +30,6 @@ std::optional<motion::RestStretch> rest_stretch(const scene::MotionOptions& opti
 
 namespace {
 
-constexpr const char* kNoFace = "no face was found in any of the frames";
-
 /// The first frame with a face, of which alone the person's shape is estimated: names and places
 /// of points as tracking the whole recording would give them, roughly.
 tracking::Tracking track_first_face(const std::string& recording, capture::FrameSource& source,
@@ -42,7 +40,7 @@ tracking::Tracking track_first_face(const std::string& recording, capture::Frame
   tracking::Tracking tracking;
   while (tracking.frames.empty()) {
     const auto frame = source.next();
-    if (!frame) throw InputError(recording, kNoFace);
+    if (!frame) throw InputError(recording, "no face was found in any of the frames");
     for (auto& one : tracker.feed(*frame))
       if (one.valid) tracking.frames.push_back(std::move(one));
   }
@@ -73,9 +71,8 @@ tracking::Tracking tracked(const scene::MotionOptions& options, capture::FrameSo
   if (extent == Extent::quick) return track_first_face(recording, source, model);
   try {
     return track_whole(options, source, model);
-  } catch (const InputError& error) {  // the tracker does not know whose frames it got
-    if (std::string(error.what()).ends_with(kNoFace)) throw InputError(recording, kNoFace);
-    throw;
+  } catch (const InputError& error) {
+    throw tracking::about_recording(error, recording);
   }
 }
 

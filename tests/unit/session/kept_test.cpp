@@ -58,12 +58,13 @@ TEST(Kept, ARecordingComesBackBitForBit) {
 
 TEST(Kept, LandmarksComeBackBitForBit) {
   const FoundLandmarks found{
-      {{"pogonion", {0.1, 1.0 / 3, -1e-9}}, {"ibug68_8", {1, 2, 3}}}, 14, 1.0 / 7};
+      {{"pogonion", {0.1, 1.0 / 3, -1e-9}}, {"ibug68_8", {1, 2, 3}}}, 14, 1.0 / 7, true};
   const auto back = landmarks_from(bytes_of(found));
   ASSERT_TRUE(back);
   EXPECT_EQ(back->landmarks, found.landmarks);
   EXPECT_EQ(back->views, 14);
   EXPECT_EQ(back->spread_m, 1.0 / 7);
+  EXPECT_TRUE(back->without_colours);
 }
 
 TEST(Kept, CompletedLandmarksComeBackBitForBit) {

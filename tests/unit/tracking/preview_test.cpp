@@ -8,6 +8,7 @@
 #include "hyperex/capture/video.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/tracking/output/preview_movie.hpp"
+#include "support/side_letters.hpp"
 #include "support/video.hpp"
 
 namespace hyperex::tracking {
@@ -84,6 +85,47 @@ TEST(Preview, TheSubjectsLeftIsWhereTheAxisSaysSo) {
   EXPECT_TRUE(red_at(10));
   EXPECT_TRUE(red_at(40));
   EXPECT_FALSE(red_at(-10));
+}
+
+/// How often the letter is drawn in the picture's columns [from_x, to_x).
+int letters_between(const cv::Mat& picture, int from_x, int to_x, const std::string& letter) {
+  cv::Mat green;
+  cv::extractChannel(picture.colRange(from_x, to_x), green, 1);
+  return test::letters_in(green, letter);
+}
+
+TEST(Preview, LettersBesideTheFaceNameTheSubjectsSides) {
+  PreviewPainter painter(expression::canonical_model(), kCamera);
+  const int middle = 480;
+  const cv::Mat front = painter.draw(face_frame(), grey());
+  EXPECT_EQ(letters_between(front, 0, middle, "R"), 1);
+  EXPECT_EQ(letters_between(front, middle, 960, "L"), 1);
+  EXPECT_EQ(letters_between(front, 0, middle, "L"), 0);
+  EXPECT_EQ(letters_between(front, middle, 960, "R"), 0);
+  // Seen from behind, the subject's left is at the picture's left.
+  TrackedFrame behind = face_frame();
+  behind.camera_from_head.linear() = Vec3(-1, -1, 1).asDiagonal();
+  const cv::Mat back = painter.draw(behind, grey());
+  EXPECT_EQ(letters_between(back, 0, middle, "L"), 1);
+  EXPECT_EQ(letters_between(back, middle, 960, "R"), 1);
+  // A frame without a face has none.
+  const cv::Mat none = painter.draw(faulty_frame(), grey());
+  EXPECT_EQ(letters_between(none, 0, 960, "R") + letters_between(none, 0, 960, "L"), 0);
+}
+
+TEST(Preview, LettersOfAFaceAtTheEdgeStayInThePicture) {
+  PreviewPainter painter(expression::canonical_model(), kCamera);
+  TrackedFrame aside = face_frame();
+  aside.camera_from_head.translation() = Vec3(-0.25, -0.1, 0.5);
+  const cv::Mat picture = painter.draw(aside, grey());
+  int light = 0;  // of the patch of 17 x 17 pixels under the R
+  for (int y = 0; y < 720; ++y)
+    for (int x = 0; x < 17; ++x) {
+      const auto c = picture.at<cv::Vec3b>(y, x);
+      light += c[0] > 230 && c[1] > 230 && c[2] > 230;
+    }
+  EXPECT_GT(light, 120);
+  EXPECT_LE(light, 17 * 17);
 }
 
 TEST(Preview, WiresOfHiddenPartsAreLeftOut) {

@@ -56,6 +56,18 @@ TEST(ScanLandmarks, AreTheSameWhereItIsKnownRoughlyHowTheFaceLies) {
     EXPECT_LT((found.landmarks.at(name) - at).norm(), 1e-3) << name;
 }
 
+TEST(ScanLandmarks, AFaceThatItsColoursHideIsFoundWithoutThem) {
+  const auto& face = face_to_draw();
+  const ScanLandmarks plain = find_scan_landmarks(face.mesh, {}, "made-up");
+  EXPECT_FALSE(plain.without_colours);
+  const render::VertexColours black =
+      render::VertexColours::Constant(face.mesh.points.rows(), 3, 0);
+  const ScanLandmarks found = find_scan_landmarks(face.mesh, black, "black");
+  EXPECT_TRUE(found.without_colours);
+  EXPECT_EQ(found.views, plain.views);
+  for (const auto& [name, at] : plain.landmarks) EXPECT_EQ(found.landmarks.at(name), at) << name;
+}
+
 TEST(ScanPictures, ShowTheForeheadAboveTheFacesPoints) {
   const Eigen::Matrix3d turn = test::slanting_turn(9);
   ScanLandmarks found;

@@ -130,5 +130,14 @@ TEST(TrackLive, WithoutAFaceNothingIsHeldBack) {
   EXPECT_GT(reported, 0u);
 }
 
+TEST(TrackLive, ErrorsOfTheTrackerNameTheRecordingWhereItIsKnown) {
+  const auto said = [](const InputError& error) {
+    return std::string(about_recording(error, "me.mp4").what());
+  };
+  EXPECT_EQ(said(InputError("tracking", "no face")), "me.mp4: no face");
+  EXPECT_EQ(said(InputError("camera.toml", "no fx")), "camera.toml: no fx");
+  EXPECT_EQ(said(InputError("a.png", "tracking: torn")), "a.png: tracking: torn");
+}
+
 }  // namespace
 }  // namespace hyperex::tracking

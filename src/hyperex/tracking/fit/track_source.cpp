@@ -3,8 +3,8 @@
 
 #include <deque>
 #include <optional>
+#include <string_view>
 
-#include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 
 namespace hyperex::tracking {
@@ -55,6 +55,13 @@ Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
   tracking.times = tracker.times();
   if (!tracking.neutral) throw InputError("tracking", "no face was found in any of the frames");
   return tracking;
+}
+
+InputError about_recording(const InputError& error, const std::string& recording) {
+  constexpr std::string_view nameless = "tracking: ";
+  const std::string said = error.what();
+  if (!said.starts_with(nameless)) return error;
+  return {recording, said.substr(nameless.size())};
 }
 
 }  // namespace hyperex::tracking

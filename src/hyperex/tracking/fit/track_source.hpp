@@ -2,9 +2,11 @@
 #pragma once
 #include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hyperex/capture/source.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/tracking/fit/face_tracker.hpp"
 
 namespace hyperex::tracking {
@@ -26,5 +28,10 @@ struct RestFrames {
 Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
                const TrackerOptions& options = {}, const FrameVisitor& visit = {},
                const RestFrames& rest = {});
+
+/// The trackers do not know the name of what they track: their errors begin with "tracking: ". This
+/// returns such an error with `recording` (a file, a folder or a device) in that place, and any
+/// other error as it is.
+InputError about_recording(const InputError& error, const std::string& recording);
 
 }  // namespace hyperex::tracking

@@ -11,6 +11,7 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/render/hidden.hpp"
+#include "hyperex/render/side_marks.hpp"
 #include "hyperex/tracking/fit/depth_view.hpp"
 
 namespace hyperex::tracking {
@@ -80,6 +81,19 @@ std::string unit_label(const expression::DeformationUnit& unit) {
   return unit.facs.empty() ? unit.name : unit.facs + "  " + unit.name;
 }
 
+/// On a light patch whose lower left corner is at (x, y), or the nearest place in the picture.
+void draw_side(Canvas& canvas, const std::string& letter, double x, double y,
+               const cv::Size& picture) {
+  constexpr int kWidth = 17, kHeight = 17;
+  if (letter.empty()) return;
+  // Whole pixels, so that the letter looks the same wherever it is.
+  const int left = std::clamp(int(std::lround(x)), 0, std::max(0, picture.width - kWidth));
+  const int low = std::clamp(int(std::lround(y)), std::min(kHeight, picture.height),
+                             std::max(kHeight, picture.height));
+  canvas.rectangle(left, low - kHeight, kWidth, kHeight, render::palette::background);
+  canvas.text(left + 3, low - 3, letter, {.size_px = 15, .bold = true});
+}
+
 render::Image to_image(const cv::Mat& bgr) {
   render::Image image(bgr.cols, bgr.rows);
   cv::cvtColor(bgr, cv::Mat(bgr.rows, bgr.cols, CV_8UC3, image.rgb.data()), cv::COLOR_BGR2RGB);
@@ -142,6 +156,7 @@ void PreviewPainter::draw_face(Canvas& canvas, const TrackedFrame& frame) const 
   draw_wires(canvas, seen);
   draw_landmarks(canvas, seen, in_camera(expression::landmarks_on(model_, frame.vertices_m)));
   draw_axes(canvas, frame.camera_from_head);
+  draw_sides(canvas, seen, frame.camera_from_head);
 }
 
 void PreviewPainter::draw_wires(Canvas& canvas, const TriMesh& seen) const {
@@ -188,6 +203,23 @@ void PreviewPainter::draw_axes(Canvas& canvas, const Eigen::Isometry3d& camera_f
     canvas.text(to.x() + 4, to.y() - 4, kAxisNames[k],
                 {.size_px = 13, .colour = kAxes[k], .bold = true});
   }
+}
+
+void PreviewPainter::draw_sides(Canvas& canvas, const TriMesh& seen,
+                                const Eigen::Isometry3d& camera_from_head) const {
+  constexpr double kGap = 8, kPatch = 17;
+  Eigen::Array2d low = place(seen.points.row(0)), high = low;
+  for (Eigen::Index i = 1; i < seen.points.rows(); ++i) {
+    const Eigen::Array2d at = place(seen.points.row(i));
+    low = low.min(at), high = high.max(at);
+  }
+  const Vec3 middle = seen.points.colwise().mean();
+  const render::Camera camera{.to_viewer = -middle, .up = -Vec3::UnitY()};
+  const auto marks = render::side_marks(camera, camera_from_head.linear().col(0));
+  const cv::Size picture(picture_width_, picture_height_);
+  draw_side(canvas, marks.at_left, low.x() - kGap - kPatch, low.y() + kPatch, picture);
+  draw_side(canvas, marks.in_middle, (low.x() + high.x() - kPatch) / 2, low.y() - kGap, picture);
+  draw_side(canvas, marks.at_right, high.x() + kGap, low.y() + kPatch, picture);
 }
 
 void PreviewPainter::draw_units(Canvas& canvas, const TrackedFrame& frame) {

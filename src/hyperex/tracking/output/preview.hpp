@@ -12,9 +12,9 @@
 namespace hyperex::tracking {
 
 /// Draws the tracking result into the pictures of a recording: the visible part of the mesh as
-/// wires, the landmarks, and the axes of the head (x to the subject's left). Beside the picture,
-/// bars show the units with the greatest weights; below it are time, frame and residuals. A frame
-/// that is not valid gets a red banner with the reason.
+/// wires, the landmarks, the axes of the head (x to the subject's left), and beside the face R and
+/// L (render::side_marks). Beside the picture, bars show the units with the greatest weights; below
+/// it are time, frame and residuals. A frame that is not valid gets a red banner with the reason.
 class PreviewPainter {
  public:
   /// `model` must outlive the painter.
@@ -33,6 +33,8 @@ class PreviewPainter {
   void draw_wires(render::Canvas& canvas, const TriMesh& seen) const;
   void draw_landmarks(render::Canvas& canvas, const TriMesh& seen, const Points& landmarks) const;
   void draw_axes(render::Canvas& canvas, const Eigen::Isometry3d& camera_from_head) const;
+  void draw_sides(render::Canvas& canvas, const TriMesh& seen,
+                  const Eigen::Isometry3d& camera_from_head) const;
   void draw_units(render::Canvas& canvas, const TrackedFrame& frame);
   void draw_status(render::Canvas& canvas, const TrackedFrame& frame) const;
   void draw_banner(render::Canvas& canvas, const std::string& fault) const;

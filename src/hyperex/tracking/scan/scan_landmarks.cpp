@@ -125,14 +125,32 @@ Vec3 agreed(const std::vector<PictureRays>& seen, int i, Vec3 point, const Vec3&
   return point;
 }
 
-[[noreturn]] void refuse_no_face(const TriMesh& scan, const std::string& source) {
+[[noreturn]] void refuse_no_face(const TriMesh& scan, bool coloured, const std::string& source) {
   const std::string turned = turned_triangles_doubt(scan);
   throw InputError(
-      source, "no face was found in this scan from any side: " +
+      source, std::string("no face was found in this scan from any side") +
+                  (coloured ? ", with its colours or without: " : ": ") +
                   (turned.empty() ? "expected a face, its triangles running counter-clockwise as "
                                     "seen from outside; give its landmarks by hand "
                                     "(docs/landmarks.md)"
                                   : turned));
+}
+
+/// The face and what the pictures of it show; no pictures where no face is found.
+struct SeenFace {
+  std::optional<FacePose> pose;
+  std::vector<PictureRays> pictures;
+};
+
+SeenFace look_for_face(const TriMesh& scan, const render::VertexColours& colours,
+                       LandmarkTracker& tracker, const ScanLandmarkOptions& options) {
+  const ScanViewer viewer(scan, colours);
+  SeenFace face;
+  if (options.scan_from_canonical)
+    face.pose = find_front_near(viewer, tracker, *options.scan_from_canonical);
+  if (!face.pose) face.pose = find_front(viewer, tracker);
+  if (face.pose) face.pictures = look_from_views(scan, colours, tracker, *face.pose, options);
+  return face;
 }
 
 }  // namespace
@@ -140,13 +158,13 @@ Vec3 agreed(const std::vector<PictureRays>& seen, int i, Vec3 point, const Vec3&
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source, const ScanLandmarkOptions& options) {
   LandmarkTracker tracker;
-  const ScanViewer viewer(scan, colours);
-  std::optional<FacePose> pose;
-  if (options.scan_from_canonical)
-    pose = find_front_near(viewer, tracker, *options.scan_from_canonical);
-  if (!pose) pose = find_front(viewer, tracker);
-  if (!pose) refuse_no_face(scan, source);
-  const auto seen = look_from_views(scan, colours, tracker, *pose, options);
+  ScanLandmarks found;
+  SeenFace face = look_for_face(scan, colours, tracker, options);
+  found.without_colours = face.pictures.empty() && colours.rows() > 0;
+  // A pattern on the scan, such as a checkerboard, can hide its face.
+  if (found.without_colours) face = look_for_face(scan, {}, tracker, options);
+  const auto& [pose, seen] = face;
+  if (!pose) refuse_no_face(scan, colours.rows() > 0, source);
   if (seen.empty())
     throw InputError(source, "a face was found but not recognised again from its front");
 
@@ -155,7 +173,6 @@ ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColou
   const Points laid = pose->scan_from_canonical.apply(canonical.mesh.points);
   Points points(face_point_count, 3);
   std::vector<double> off;
-  ScanLandmarks found;
   for (int i = 0; i < face_point_count; ++i) {
     const Vec3 normal = normal_of(scan, surface.query(laid.row(i).transpose()).triangle);
     const Vec3 point = agreed(seen, i, laid.row(i).transpose(), normal, options.tolerance_m);

@@ -31,9 +31,10 @@ struct ScanLandmarks {
   /// The pose of the canonical face on the scan. The columns of its rotation are the left, up and
   /// front directions of the face.
   Similarity scan_from_canonical;
-  int views = 0;        ///< number of pictures in which the face was found
-  double score = 0;     ///< score of the network, mean over those views, 0 to 1
-  double spread_m = 0;  ///< median distance of a view's ray from the common point
+  int views = 0;                 ///< number of pictures in which the face was found
+  double score = 0;              ///< score of the network, mean over those views, 0 to 1
+  double spread_m = 0;           ///< median distance of a view's ray from the common point
+  bool without_colours = false;  ///< with the scan's colours no face was found
 };
 
 /// Finds the landmarks of a face scan. The scan may have any orientation and needs no colour. The
@@ -42,7 +43,8 @@ struct ScanLandmarks {
 /// its rays is computed by least squares; the weight of a view decreases with the distance of its
 /// ray and with the inclination of the surface. The closest point of the surface is the result, for
 /// a lid whose inner side that is, the edge in front of it (up to 4 mm aside). The same scan always
-/// gives the same result. Throws InputError, naming `source`, if no face is found.
+/// gives the same result. Where colours hide the face, it is looked for without them. Throws
+/// InputError, naming `source`, if no face is found.
 ScanLandmarks find_scan_landmarks(const TriMesh& scan, const render::VertexColours& colours,
                                   const std::string& source,
                                   const ScanLandmarkOptions& options = {});
