@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "face_pictures.hpp"
@@ -60,9 +61,12 @@ TEST(ScanLandmarks, AFaceThatItsColoursHideIsFoundWithoutThem) {
   const auto& face = face_to_draw();
   const ScanLandmarks plain = find_scan_landmarks(face.mesh, {}, "made-up");
   EXPECT_FALSE(plain.without_colours);
-  const render::VertexColours black =
-      render::VertexColours::Constant(face.mesh.points.rows(), 3, 0);
-  const ScanLandmarks found = find_scan_landmarks(face.mesh, black, "black");
+  render::VertexColours board(face.mesh.points.rows(), 3);
+  const auto square = [](double at_m) { return long(std::floor(at_m / 0.015)); };
+  for (Eigen::Index v = 0; v < board.rows(); ++v)
+    board.row(v).setConstant(
+        (square(face.mesh.points(v, 0)) + square(face.mesh.points(v, 1))) % 2 == 0 ? 0 : 255);
+  const ScanLandmarks found = find_scan_landmarks(face.mesh, board, "board");
   EXPECT_TRUE(found.without_colours);
   EXPECT_EQ(found.views, plain.views);
   for (const auto& [name, at] : plain.landmarks) EXPECT_EQ(found.landmarks.at(name), at) << name;
