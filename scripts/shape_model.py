@@ -24,7 +24,7 @@ LEFT_OUT = ("Pupil", "eyeLook")
 LEAST_MM = 0.05
 REST_PERCENTILE = 5  # of a weight: the face at rest
 LEAST_SPREAD = 0.1
-CHEEK_SPREAD = 0.2  # of cheekSquint and cheekRaiser at least: the recording reports cheeks weakly (docs/muscles.md)
+CHEEK_SPREAD = 0.2  # of a raised cheek at least: trackers see little of a cheek's skin (docs/muscles.md)
 COUPLING = 0.8
 LEAST_EIGENVALUE = 0.03
 ROUNDS = 100
@@ -151,8 +151,16 @@ def couplings(names, weights):
         values, vectors = np.linalg.eigh(correlation)
         correlation = vectors * np.maximum(values, LEAST_EIGENVALUE) @ vectors.T
     correlation[apart] = 0
-    least = [CHEEK_SPREAD if n.startswith(RAISED_CHEEK) else LEAST_SPREAD for n in names]
-    return np.maximum(spread, least), correlation
+    return freer_cheeks(names, np.maximum(spread, LEAST_SPREAD), correlation)
+
+
+def freer_cheeks(names, spread, correlation):
+    """With CHEEK_SPREAD. A raised cheek then moves more by itself: its covariances with other shapes stay."""
+    cheek = np.array([n.startswith(RAISED_CHEEK) for n in names])
+    wider = np.where(cheek, np.maximum(spread, CHEEK_SPREAD), spread)
+    narrower = np.outer(spread / wider, spread / wider)
+    narrower[np.ix_(cheek, cheek)] = 1
+    return wider, correlation * narrower
 
 
 def main():
