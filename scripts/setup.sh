@@ -11,8 +11,8 @@
 #   scripts/setup.sh --bench   also what measuring takes: Google Benchmark, matplotlib, CalculiX
 #   scripts/setup.sh --interop  also the programs that make interop tries: ParaView, Blender, Snakemake, Slurm
 #   scripts/setup.sh --lint    also clang-format, clang-tidy, gcovr and codespell (with --tests)
-# Says first what it will install and how large it is, installs only what is missing, and is quick
-# when nothing is.
+# Several options count together. Says first what it will install and how large it is, installs only
+# what is missing, and is quick when nothing is.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -46,26 +46,27 @@ tests=(python3-matplotlib libgtest-dev libgmock-dev libopencv-imgcodecs-dev calc
 say() { printf 'setup: %s\n' "$*"; }
 die() { printf 'setup: %s\n' "$*" >&2; exit 1; }
 
-case "${1:-}" in
-  '') ;;
-  --video) packages+=("${video[@]}") ;;
-  --python) packages+=("${python[@]}") ;;
-  --deb) packages+=("${python[@]}" "${deb[@]}") ;;
-  --docs) packages+=("${python[@]}" "${docs[@]}") ;;
-  --tests | --lint)
-    packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
-    [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
-    packages+=(firefox-esr xvfb)
-    [[ "$1" == --tests ]] || packages+=(clang-format clang-tidy gcovr codespell)
-    ;;
-  --fuzz) packages+=(clang libclang-rt-14-dev) ;;
-  --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
-  --interop)
-    packages+=("${python[@]}" paraview python3-paraview blender python3-matplotlib xvfb snakemake slurm-wlm)
-    ;;
-  -h | --help) sed -n '3,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
-  *) die "unknown option $1 (there are --video, --python, --deb, --docs, --tests, --fuzz, --bench, --interop and --lint)" ;;
-esac
+for option in "$@"; do
+  case "$option" in
+    --video) packages+=("${video[@]}") ;;
+    --python) packages+=("${python[@]}") ;;
+    --deb) packages+=("${python[@]}" "${deb[@]}") ;;
+    --docs) packages+=("${python[@]}" "${docs[@]}") ;;
+    --tests | --lint)
+      packages+=("${video[@]}" "${python[@]}" "${tests[@]}")
+      [[ -n "${CHROMIUM:-}" && -x "${CHROMIUM:-}" ]] || packages+=(chromium)
+      packages+=(firefox-esr xvfb)
+      [[ "$option" == --tests ]] || packages+=(clang-format clang-tidy gcovr codespell)
+      ;;
+    --fuzz) packages+=(clang libclang-rt-14-dev) ;;
+    --bench) packages+=(libbenchmark-dev python3-matplotlib calculix-ccx) ;;
+    --interop)
+      packages+=("${python[@]}" paraview python3-paraview blender python3-matplotlib xvfb snakemake slurm-wlm)
+      ;;
+    -h | --help) sed -n '3,15s/^# \{0,1\}//p' "$0"; exit 0 ;;
+    *) die "unknown option $option (there are --video, --python, --deb, --docs, --tests, --fuzz, --bench, --interop and --lint)" ;;
+  esac
+done
 
 node_is_enough() {
   command -v node > /dev/null && command -v npm > /dev/null &&

@@ -112,6 +112,15 @@ case "$2" in
     expect_all_packages pybind11-dev python3-sphinx python3-myst-parser furo libjs-mathjax doxygen
     expect_not libgtest-dev
     ;;
+  several)  # options: all of them count
+    run_setup --video --fuzz
+    [[ $status == 0 ]] || fail "status $status"
+    expect_all_packages libopencv-videoio-dev clang
+    expect_not libgtest-dev
+    run_setup --fuzz --nonsense
+    [[ $status == 1 ]] || fail "status $status"
+    expect "unknown option --nonsense"
+    ;;
   sudo)
     as_ordinary_user
     run_setup
