@@ -31,8 +31,8 @@
 namespace hyperex {
 namespace {
 
-/// Weights of the rig's shapes; a name without "_L" or "_R" stands for both sides where the rig has
-/// no shape of that name.
+/// Weights of the rig's expression shapes by name. "mouthSmile" sets both mouthSmile_L and
+/// mouthSmile_R, since the rig has no shape "mouthSmile".
 using RigWeights = std::map<std::string, double>;
 
 std::filesystem::path rig_data(const std::string& file) {
@@ -85,8 +85,8 @@ PersonRig read_person_rig(const std::string& person) {
   return rig;
 }
 
-/// Carries a motion of the rig to the vertices of a scan. Where the lips touch at rest, the known
-/// opening of the mouth tells them apart.
+/// Transfers a motion of the rig to the vertices of a scan. Lips that touch at rest are apart in
+/// the opened mouth, so that each vertex takes the motion of its own lip.
 class RigToScan {
  public:
   RigToScan(const PersonRig& rig, const Points& scan, const Points& scan_opened)

@@ -24,8 +24,8 @@ inline constexpr double kFlattestNose = 0.15;
 /// of the five places is not known.
 std::optional<double> nose_before_plane(const io::Landmarks& landmarks);
 
-/// Warnings of what a scan lacks of a face. `given`: landmarks that people or the program set on
-/// the scan; `all`: with those that complete_landmarks placed; m.
+/// Warnings where a scan does not show a whole face. `given`: the landmarks that a person set or
+/// the program found on the scan; `all`: with those that complete_landmarks added; m.
 ///  * `scan.half_missing`: by the landmarks of one side and of the midline, the canonical face is
 ///    laid on the scan. At most 10 % of the places that it names on this side lie farther than
 ///    kOffScan_m from the scan, and more than 60 % of those on the other side. This takes four

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-// What a recording tells of an activation. Runs, pictures, pages and Python ask here.
+// How far a recording determines a muscle's activation, and how far the prior does.
 #include <string>
 
 #include "hyperex/simulate/performance.hpp"

@@ -29,9 +29,9 @@ Tracking track(capture::FrameSource& source, const expression::FaceModel& model,
                const TrackerOptions& options = {}, const FrameVisitor& visit = {},
                const RestFrames& rest = {});
 
-/// The trackers do not know the name of what they track: their errors begin with "tracking: ". This
-/// returns such an error with `recording` (a file, a folder or a device) in that place, and any
-/// other error as it is.
+/// The same error with the name of the recording: where the text begins with "tracking: ", as that
+/// of errors of the trackers does, `recording` (a file, a folder or a device) takes that place. Any
+/// other error is returned unchanged.
 InputError about_recording(const InputError& error, const std::string& recording);
 
 }  // namespace hyperex::tracking

@@ -12,7 +12,7 @@ import type { Shown } from '../shown';
 const strongest = (values: number[]): number => values.reduce((most, v) => (Math.abs(v) > Math.abs(most) ? v : most), 0);
 const pull = ({ left, right }: MuscleGroup): number => Math.max(...left, ...right);
 
-/** "On both sides it is mostly the prior's choice. "; empty where that is said of neither. */
+/** A sentence from the notes of both sides, as "On both sides it is mostly the prior's choice. "; empty without notes. */
 const noteOf = (right: string, left: string): string =>
   right && right === left ? `On both sides it is ${right}. `
     : (right && `On the right it is ${right}. `) + (left && `On the left it is ${left}. `);
