@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,15 +18,24 @@ namespace {
 class BlasKernels : public testing::Test {
  protected:
   void SetUp() override {
-    if (std::getenv("OPENBLAS_CORETYPE")) GTEST_SKIP() << "the user has chosen";
+    if (const char* chosen = std::getenv("OPENBLAS_CORETYPE")) chosen_before_ = chosen;
+    ::unsetenv("OPENBLAS_CORETYPE");
     // The kernels that OpenBLAS chooses for a processor that it does not know.
     if (!take_blas_kernels("Prescott") || std::string(openblas_get_corename()) != "Prescott")
       GTEST_SKIP() << "this OpenBLAS has no other kernels";
   }
   void TearDown() override {
     ::unsetenv("OPENBLAS_CORETYPE");
-    choose_blas_kernels();
+    if (!chosen_before_) {
+      choose_blas_kernels();
+      return;
+    }
+    take_blas_kernels(*chosen_before_);
+    ::setenv("OPENBLAS_CORETYPE", chosen_before_->c_str(), 1);
   }
+
+ private:
+  std::optional<std::string> chosen_before_;  ///< Where whoever runs the tests has chosen.
 };
 
 TEST_F(BlasKernels, OfAnUnknownProcessorAreThoseThatItCanRun) {
