@@ -5,7 +5,8 @@
 // The rig has morph targets named like ARKit's blend shapes and the vertices of its landmarks; the
 // recording has a person's weights of these shapes. Both together give the second moments (about
 // rest) of the landmarks' displacements, kept as their strongest modes: one set for the shapes of
-// brows and eyes, one for all others. What a rig does not do is stated below by hand.
+// brows and eyes, one for all others. Shapes that the recording hardly has are covered by a motion of
+// each shape alone. What a rig does not do is stated below by hand.
 import { readFileSync } from "node:fs";
 
 // Standard deviations (x, y, z; mm) of motion beyond the rig's modes. Upper part of the face first.
@@ -39,7 +40,9 @@ const ALIASES = {
   ibug68_50: "crista_philtri_inferior_R", ibug68_52: "crista_philtri_inferior_L",
   ibug68_51: "labiale_superius", ibug68_57: "labiale_inferius", ibug68_62: "stomion",
 };
-const LEAST_MODE_MM = 0.7; // root of the summed squares over all landmarks; weaker modes are left out
+// A recording has a few expressions of one person: each shape, of both sides, also moves by itself.
+const ALONE = 0.15; // standard deviation of a weight
+const LEAST_MODE_MM = 0.4; // root of the summed squares over all landmarks; weaker modes are left out
 
 const [rigFile, landmarkFile, weightFile] = process.argv.slice(2);
 const glb = readFileSync(rigFile);
@@ -103,10 +106,22 @@ function shapesOf(column) {
   return shapes[sided] ? [sided] : [`${name}_L`, `${name}_R`].filter((side) => shapes[side]);
 }
 
+const ofUpper = (name) => /^(brow|eye)/.test(name);
+/** Displacements by each shape of a part of the face, those of two sides together. */
+function shapesAlone(part) {
+  const sums = {};
+  for (const [name, values] of Object.entries(shapes))
+    if (!/^eyeLook|^tongue/.test(name) && ofUpper(name) === (part === "upper")) {
+      const sum = (sums[name.replace(/_[LR]$/, "")] ??= new Float64Array(size));
+      values.forEach((value, i) => (sum[i] += value));
+    }
+  return Object.values(sums);
+}
+
 function moments(part) {
   const sum = Array.from({ length: size }, () => new Float64Array(size));
   const used = header.flatMap((column, i) => shapesOf(column).map((shape) => [i, shape]))
-    .filter(([, shape]) => /^(brow|eye)/.test(shape) === (part === "upper"));
+    .filter(([, shape]) => ofUpper(shape) === (part === "upper"));
   // Second moments of the weights first: far fewer than those of coordinates.
   for (const [i, a] of used)
     for (const [j, b] of used) {
@@ -115,6 +130,9 @@ function moments(part) {
         for (let r = 0; r < size; ++r)
           if (shapes[a][r] !== 0) for (let c = 0; c < size; ++c) sum[r][c] += mean * shapes[a][r] * shapes[b][c];
     }
+  for (const shape of shapesAlone(part))
+    for (let r = 0; r < size; ++r)
+      if (shape[r] !== 0) for (let c = 0; c < size; ++c) sum[r][c] += ALONE * ALONE * shape[r] * shape[c];
   // Averaged with what the mirrored face would do.
   const halfMirrored = sum.map((row) => mirrored(Array.from(row)));
   const turned = Array.from({ length: size }, (_, c) => mirrored(halfMirrored.map((row) => row[c])));
@@ -153,7 +171,7 @@ console.log(`# SPDX-License-Identifier: GPL-3.0-or-later
 #   x y z: place at rest. sx sy sz: standard deviation beyond the modes.
 #   upperN, lowerN: modes of brows and eyes and of the rest of the face, each one standard deviation.
 # Modes from the expressions of ICT-FaceKit Light (USC Institute for Creative Technologies, MIT) with
-# the weights of a Live Link Face recording of a range of motion (MIT).
+# the weights of a Live Link Face recording of a range of motion (MIT), and of each shape alone.
 ${columns.join(",")}`);
 landmarks.forEach((point, row) => {
   const numbers = [...rest.slice(3 * row, 3 * row + 3), ...point.sd];
