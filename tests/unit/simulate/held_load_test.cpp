@@ -60,6 +60,17 @@ TEST(MuscleGains, EveryNameIsListed) {
   for (const std::string& name : names) EXPECT_NO_THROW(muscle_gains(all, {{name, 0.5}})) << name;
 }
 
+TEST(CommonChange, IsTheSmallestOfOneSign) {
+  const Eigen::Vector4d change(-1, -0.4, 0.5, 0);
+  EXPECT_EQ(common_change(change, {0, 1}), -0.4);
+  EXPECT_EQ(common_change(change, {1, 0}), -0.4);
+  EXPECT_EQ(common_change(change, {2}), 0.5);
+  EXPECT_EQ(common_change(change, {0, 2}), 0) << "one is weaker, one stronger";
+  EXPECT_EQ(common_change(change, {0, 1, 3}), 0) << "one is as it was";
+  EXPECT_EQ(common_change(change, {}), 0);
+  EXPECT_EQ(common_change(-2 * change, {0, 1}), 0.8) << "multiples of a change";
+}
+
 TEST(GroupSums, AddMusclesOfAGroupAndASide) {
   MuscleCourse course;
   course.names = kNames;
@@ -177,6 +188,36 @@ TEST_F(LoadOfMuscles, AsRecordedAndWhatGainsAddAreTheLoadWithGains) {
   const Eigen::MatrixXd wanted = load_.force * course;
   EXPECT_LT((load_.force * load_.course + added.force * added.course - wanted).norm(),
             1e-12 * wanted.norm());
+}
+
+/// Motion that the fit leaves unexplained fades as far as all muscles do that may make it.
+TEST_F(LoadOfMuscles, UnexplainedMotionFadesWithItsMakers) {
+  load_.force.conservativeResize(Eigen::NoChange, 12 + 12 + 3);
+  load_.course.conservativeResize(12 + 12 + 3, Eigen::NoChange);
+  load_.force.rightCols(27 - 16).setRandom();
+  load_.course.bottomRows(27 - 16).setRandom();
+  load_.course.col(0).setZero();
+  load_.makers = {{0, 2}, {1}, {}};
+  options_.gains = {{"zyg_major_L", 0.2}, {"malaris_L", 0.5}, {"zyg_major_R", 0}};
+  Eigen::MatrixXd course = load_.course;
+  for (const int band : {0, 6}) {
+    course.row(band) *= 0.2;
+    course.row(band + 1).setZero();
+    course.row(band + 2) *= 0.5;
+  }
+  course.row(24) *= 0.5;
+  course.row(25).setZero();
+  const Eigen::MatrixXd wanted = load_.force * course;
+  expect_at_samples(wanted);
+  const HeldLoad added =
+      added_by_gains(load_, muscle_gains(load_.muscles.names, options_.gains).array() - 1);
+  EXPECT_EQ(added.force.cols(), 2 * 3 + 2);
+  EXPECT_LT((load_.force * load_.course + added.force * added.course - wanted).norm(),
+            1e-12 * wanted.norm());
+  options_.gains = {{"zyg_major_L", 0.2}};
+  course = load_.course;
+  for (const int row : {0, 6}) course.row(row) *= 0.2;
+  expect_at_samples(load_.force * course);
 }
 
 TEST_F(LoadOfMuscles, MirroredEachTakesItsCounterpartsCourse) {

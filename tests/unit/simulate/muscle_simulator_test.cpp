@@ -349,6 +349,18 @@ TEST_F(DrivenByForces, AWeakerMuscleMovesLess) {
   EXPECT_EQ(apart(simulator.run(), before), 0);
 }
 
+/// Neither do forces that no muscle explains: they fade with all muscles that may make them.
+TEST_F(DrivenByForces, WithoutMusclesOnASideItsCornerHardlyMoves) {
+  Simulator simulator = made(options_);
+  const SimulationResult before = simulator.run();
+  SimulationOptions palsy = options_;
+  palsy.muscles.gains = {{"side_L", 0}};
+  simulator.set_options(palsy);
+  const SimulationResult after = simulator.run();
+  EXPECT_LT(way(after, "ibug68_54"), 0.2 * way(before, "ibug68_54"));
+  EXPECT_GT(way(after, "ibug68_48"), 0.95 * way(before, "ibug68_48"));
+}
+
 TEST_F(DrivenByForces, AGainOf1ChangesNoBit) {
   const SimulationResult before = made(options_).run();
   options_.muscles.gains = {{"side_L", 1}, {"zyg_major_R", 1}};

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/fem/solve/static_solve.hpp"
@@ -14,6 +15,8 @@
 
 namespace hyperex::simulate {
 namespace {
+
+constexpr Eigen::Index kJawRows = 12;
 
 /// The counterpart's index.
 int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
@@ -70,6 +73,16 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
                                                  muscles::gain_expected(gain.muscle, table)));
   }
   return factor;
+}
+
+double common_change(const Eigen::VectorXd& change, const std::vector<int>& muscles) {
+  if (muscles.empty()) return 0;
+  double common = change[muscles.front()];
+  for (const int m : muscles) {
+    if (common * change[m] <= 0) return 0;
+    if (std::abs(change[m]) < std::abs(common)) common = change[m];
+  }
+  return common;
 }
 
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options) {
@@ -139,6 +152,11 @@ Eigen::Index jaw_row(const HeldLoad& load) {
 
 namespace {
 
+/// Index of the first column after those of the muscles and the jaw.
+Eigen::Index unexplained_row(const HeldLoad& load) {
+  return jaw_row(load) + kJawRows;
+}
+
 /// The course after mirroring and gains.
 Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& options) {
   Eigen::MatrixXd course = load.course;
@@ -151,6 +169,10 @@ Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& option
     const int from = options.mirrored ? counterpart(names, std::size_t(own)) : int(own);
     course.row(m) = factor[own] * load.course.row(m - own + from);
   }
+  const Eigen::VectorXd change = factor.array() - 1;
+  for (std::size_t i = 0; i < load.makers.size(); ++i)
+    course.row(unexplained_row(load) + Eigen::Index(i)) *=
+        1 + common_change(change, load.makers[i]);
   return course;
 }
 
@@ -181,15 +203,22 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
 
 HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change) {
   std::vector<Eigen::Index> changed;
+  std::vector<double> by;
+  const auto add = [&](Eigen::Index column, double times) {
+    if (times == 0) return;
+    changed.push_back(column);
+    by.push_back(times);
+  };
   for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * change.size(); ++m)
-    if (change[m % change.size()] != 0) changed.push_back(m);
+    add(m, change[m % change.size()]);
+  for (std::size_t i = 0; i < load.makers.size(); ++i)
+    add(unexplained_row(load) + Eigen::Index(i), common_change(change, load.makers[i]));
   HeldLoad out;
   out.time_s = load.time_s;
   out.smooth_up_to_s = load.smooth_up_to_s;
   out.force = load.force(Eigen::all, changed);
   out.course = load.course(changed, Eigen::all);
-  for (std::size_t i = 0; i < changed.size(); ++i)
-    out.course.row(Eigen::Index(i)) *= change[changed[i] % change.size()];
+  for (std::size_t i = 0; i < changed.size(); ++i) out.course.row(Eigen::Index(i)) *= by[i];
   return out;
 }
 

@@ -24,6 +24,10 @@ struct HeldLoad {
   /// band per muscle.
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
+  /// For each column after those of muscles and jaw, the muscles that may make the unexplained
+  /// motion which it holds (FaceParts). It fades as far as all of these fade (common_change()).
+  /// Columns without such muscles, and all where this is empty, stay as they are.
+  std::vector<std::vector<int>> makers;
   double greatest_opening_deg = 0;
   /// The nodes of the patches around driven points. At finite strain, additional forces hold them
   /// where the load puts them at small strain. The run that first needs these forces finds them.
@@ -36,6 +40,10 @@ struct HeldLoad {
 Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
                              const std::vector<MuscleGain>& gains,
                              const muscles::MuscleTable& table = muscles::muscle_template());
+
+/// What the changes (one per muscle) of these muscles have in common: that of the smallest size
+/// where all have the same sign, else 0. 0 for no muscle.
+double common_change(const Eigen::VectorXd& change, const std::vector<int>& muscles);
 
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
@@ -69,7 +77,8 @@ fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double d
                     double tolerance, Eigen::Index prescribed);
 
 /// The load that gains of 1 + `change` (one number per muscle) add to the load as recorded: the
-/// columns of the muscles whose gain changes, with their course times the change. Without names.
+/// columns of the muscles whose gain changes, with their course times the change, and those that
+/// follow them. Without names.
 HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change);
 
 /// One flag per column: whether its force turns with the tissue at finite strain. Forces of muscles

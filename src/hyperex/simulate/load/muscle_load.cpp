@@ -14,6 +14,7 @@
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/drive/principal_directions.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
+#include "hyperex/simulate/load/face_parts.hpp"
 #include "hyperex/simulate/load/holding_forces.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
@@ -211,14 +212,58 @@ void store_sample(const FitResult& fitted, const Eigen::MatrixXd& members, Eigen
       sigmas(members * fitted.prior_covariance * members.transpose());
 }
 
-/// Orthonormal directions of the columns, as many as matter.
-Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns) {
+/// Orthonormal directions of the columns, as many as matter: of more than `least`.
+Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns, double least) {
   const PrincipalDirections all = principal_directions(columns);
   Eigen::Index kept = 0;
-  while (kept < all.sizes.size() && all.sizes[kept] > kLeftOverLost * all.sizes[0] &&
-         all.sizes[kept] > 1e-9)
-    ++kept;
+  while (kept < all.sizes.size() && all.sizes[kept] > std::max(least, 1e-9)) ++kept;
   return all.directions.leftCols(kept);
+}
+
+/// `columns` (3 n x k) times one number per place.
+Eigen::MatrixXd scaled_places(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& columns) {
+  return numbers.replicate(1, 3).transpose().reshaped().asDiagonal() * columns;
+}
+
+/// What the fit leaves over at the points, divided among the parts of the face.
+struct DividedLeftOver {
+  Eigen::MatrixXd directions;  ///< 3 P x k, orthonormal within a part
+  Eigen::MatrixXd course;      ///< k x samples, m
+  std::vector<Eigen::Index> part;
+};
+
+/// `shares`: of FaceParts at the points.
+DividedLeftOver divided(const Eigen::MatrixXd& left_over, const Eigen::MatrixXd& shares) {
+  DividedLeftOver out;
+  out.directions.resize(left_over.rows(), 0);
+  out.course.resize(0, left_over.cols());
+  const PrincipalDirections whole = principal_directions(left_over);
+  const double least = whole.sizes.size() > 0 ? kLeftOverLost * whole.sizes[0] : 0;
+  for (Eigen::Index part = 0; part < shares.cols(); ++part) {
+    const Eigen::MatrixXd own = scaled_places(shares.col(part), left_over);
+    const Eigen::MatrixXd directions = directions_of(own, least);
+    const Eigen::Index from = out.directions.cols();
+    out.directions.conservativeResize(Eigen::NoChange, from + directions.cols());
+    out.directions.rightCols(directions.cols()) = directions;
+    out.course.conservativeResize(from + directions.cols(), Eigen::NoChange);
+    out.course.bottomRows(directions.cols()) = directions.transpose() * own;
+    out.part.insert(out.part.end(), std::size_t(directions.cols()), part);
+  }
+  return out;
+}
+
+/// The rows of `nodal` (3 |all nodes| x n) at these nodes.
+Eigen::MatrixXd at_nodes(const std::vector<int>& nodes, const Eigen::MatrixXd& nodal) {
+  Eigen::MatrixXd out(3 * Eigen::Index(nodes.size()), nodal.cols());
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    out.middleRows<3>(3 * Eigen::Index(i)) = nodal.middleRows<3>(3 * nodes[i]);
+  return out;
+}
+
+/// Adds rows to HeldLoad::makers for columns that belong to these parts. `makers`: of FaceParts.
+void add_makers(const std::vector<Eigen::Index>& part, const std::vector<std::vector<int>>& makers,
+                HeldLoad& load) {
+  for (const Eigen::Index p : part) load.makers.push_back(makers[std::size_t(p)]);
 }
 
 /// Places that the residual displacement does not move: beside the ears, the root of the nose and
@@ -264,10 +309,11 @@ std::vector<int> wholly_held(const DrivenSkin& patches) {
 }
 
 /// Adds forces that correct the displacement of the skin between the points, `skin`, towards that
-/// of shapes of real faces. These forces do not change when muscles change.
+/// of shapes of real faces, divided among the `parts` of the face. `makers`: of FaceParts.
 void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const AlignedMotion& motion, const SimulationOptions& options,
                 const MuscleModel& model, const Driven& driven, const LoadedSkin& skin,
+                const FaceParts& parts, const std::vector<std::vector<int>>& makers,
                 const std::function<void()>& between, HeldLoad& load) {
   const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(driven.points, unmoved_places(driven.points, landmarks), mesh, up,
@@ -281,18 +327,26 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   if (between) between();
   if (correction.course.rows() == 0) return;
   const std::vector<int> nodes = united(correction.nodes, load.patch_nodes);
+  const Eigen::MatrixXd shares = parts.shares(at_nodes(correction.nodes, model.response()));
+  const Eigen::Index directions = correction.displaced.cols();
   Eigen::MatrixXd displaced =
-      Eigen::MatrixXd::Zero(3 * Eigen::Index(nodes.size()), correction.displaced.cols());
-  for (std::size_t i = 0, from = 0; i < nodes.size() && from < correction.nodes.size(); ++i)
-    if (nodes[i] == correction.nodes[from])
-      displaced.middleRows<3>(3 * Eigen::Index(i)) =
-          correction.displaced.middleRows<3>(3 * Eigen::Index(from++));
+      Eigen::MatrixXd::Zero(3 * Eigen::Index(nodes.size()), directions * shares.cols());
+  for (std::size_t i = 0, from = 0; i < nodes.size() && from < correction.nodes.size(); ++i) {
+    if (nodes[i] != correction.nodes[from]) continue;
+    for (Eigen::Index part = 0; part < shares.cols(); ++part)
+      displaced.block(3 * Eigen::Index(i), part * directions, 3, directions) =
+          shares(Eigen::Index(from), part) *
+          correction.displaced.middleRows<3>(3 * Eigen::Index(from));
+    ++from;
+  }
   const HeldShape held = holding_forces(model, nodes, displaced, between);
   const Eigen::Index own = load.force.cols();
   load.force.conservativeResize(Eigen::NoChange, own + held.force.cols());
   load.force.rightCols(held.force.cols()) = held.force;
-  load.course.conservativeResize(own + correction.course.rows(), Eigen::NoChange);
-  load.course.bottomRows(correction.course.rows()) = correction.course;
+  load.course.conservativeResize(own + held.force.cols(), Eigen::NoChange);
+  load.course.bottomRows(held.force.cols()) = correction.course.replicate(shares.cols(), 1);
+  for (Eigen::Index part = 0; part < shares.cols(); ++part)
+    add_makers(std::vector(std::size_t(directions), part), makers, load);
 }
 
 }  // namespace
@@ -339,17 +393,21 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   muscle.time_s = load.time_s;
   load.greatest_opening_deg = muscle.jaw_opening_deg.maxCoeff();
 
-  const Eigen::MatrixXd directions = directions_of(left_over);
-  load.course.resize(course.rows() + directions.cols(), samples);
-  load.course << course, directions.transpose() * left_over;
+  const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));
+  const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());
+  const std::vector<std::vector<int>> makers = parts.makers(of_points);
+  const DividedLeftOver rest = divided(left_over, parts.shares(of_points));
+  add_makers(rest.part, makers, load);
+  load.course.resize(course.rows() + rest.course.rows(), samples);
+  load.course << course, rest.course;
   HeldShape held =
-      forces_of(model, patches, driven, directions,
+      forces_of(model, patches, driven, rest.directions,
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.force = std::move(held.force);
   load.patch_nodes = wholly_held(patches);
   if (options.muscles.shape_prior)
     add_shapes(mesh, landmarks, motion, options, model, driven,
-               {std::move(held.moved), load.course, seen}, between, load);
+               {std::move(held.moved), load.course, seen}, parts, makers, between, load);
   return load;
 }
 
