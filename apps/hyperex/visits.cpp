@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -13,6 +12,7 @@
 #include "hyperex/core/progress.hpp"
 #include "hyperex/visits/compare_visits.hpp"
 #include "hyperex/visits/summary.hpp"
+#include "hyperex/visits/visit_figures.hpp"
 #include "hyperex/visits/visits_page.hpp"
 #include "hyperex/visits/visits_table.hpp"
 
@@ -36,20 +36,14 @@ void check_outputs_of(const VisitsOptions& options, const visits::VisitsFile& fi
                       {options.table, {".csv"}, visits::kTableHeader}});
 }
 
-/// One decimal; never "-0.0".
-double rounded(double value) {
-  return std::round(10 * value) / 10 + 0.0;
-}
-
 std::string cell(const visits::VisitValue& value) {
-  return value.measured ? fmt::format("{:.1f} +- {:.1f}", rounded(value.value),
-                                      value.measured->high - value.value)
-                        : fmt::format("{:.1f}", rounded(value.value));
+  const std::string text = visits::figure(value.value);
+  return value.measured ? text + " +- " + visits::figure(value.measured->high - value.value) : text;
 }
 
 std::string interval(const visits::Change& change) {
-  return change.all ? fmt::format("{:>+8.1f} to {:>+6.1f}", rounded(change.all->low),
-                                  rounded(change.all->high))
+  return change.all ? fmt::format("{:>8} to {:>6}", visits::signed_figure(change.all->low),
+                                  visits::signed_figure(change.all->high))
                     : "not known";
 }
 
@@ -60,7 +54,7 @@ void print_table(const visits::Comparison& comparison) {
   std::cout << fmt::format("{:<56} {:>16}", "", entries.front().label);
   if (several)
     std::cout << fmt::format(" {:>16} {:>10} {:>18}  {}", entries.back().label, "change", "95 %",
-                             "beyond repetition");
+                             "beyond");
   std::cout << '\n';
   for (const visits::MeasureOverVisits& one : comparison.measures) {
     const std::string name =
@@ -70,8 +64,10 @@ void print_table(const visits::Comparison& comparison) {
     std::cout << fmt::format("{:<56} {:>16}", name, text(one.values.front()));
     if (several) std::cout << fmt::format(" {:>16}", text(one.values.back()));
     if (const auto& change = one.changes.back())
-      std::cout << fmt::format(" {:>+10.1f} {:>18}  {}", rounded(change->value), interval(*change),
-                               words_of(change->beyond));
+      std::cout << fmt::format(" {:>10} {:>18}  {}", visits::signed_figure(change->value),
+                               interval(*change), words_of(change->beyond));
+    else if (one.values.front() && one.values.back() && several)
+      std::cout << fmt::format(" {:>10}", "not compared");
     std::cout << '\n';
   }
 }

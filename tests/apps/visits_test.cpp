@@ -54,6 +54,17 @@ TEST_F(Visits, WriteAPageAndATable) {
   EXPECT_EQ(read_file(in("v.csv")), before);
 }
 
+TEST_F(Visits, GoByTheDateAndNotByTheFile) {
+  ASSERT_EQ(call("visits v.toml --table sound.csv").status, 0);
+  std::ofstream(in("v.toml")) << "[[visit]]\ndate = 2026-06-01\nrecording = \"after.csv\"\n"
+                                 "jitter_mm = 0\n[[visit]]\ndate = 2026-03-01\n"
+                                 "recording = \"before.csv\"\njitter_mm = 0\n";
+  const Outcome exchanged = call("visits v.toml --table exchanged.csv");
+  ASSERT_EQ(exchanged.status, 0) << exchanged.err;
+  EXPECT_THAT(exchanged.err, HasSubstr("the visits were sorted by date"));
+  EXPECT_EQ(read_file(in("exchanged.csv")), read_file(in("sound.csv")));
+}
+
 TEST_F(Visits, LeaveOutAWildReadingAndSaySo) {
   ASSERT_EQ(call("visits v.toml --table sound.csv").status, 0);
   motion::Motion wild = motion::read_motion(in("after.csv"));
@@ -144,6 +155,10 @@ TEST_F(Visits, WarnOfAnotherScaleAndRefuseExchangedSides) {
               testing::AllOf(HasSubstr("after.csv: the face at rest is 0.4 times as large as in "
                                        "before.csv"),
                              HasSubstr("the recording has not the size of a face")));
+  EXPECT_THAT(small.out,
+              testing::AllOf(HasSubstr("not compared, as the face at rest is 0.4 times as large in "
+                                       "after.csv as in before.csv."),
+                             testing::Not(HasSubstr("what measurement and repetition"))));
   for (std::string& name : after.names) name = face::mirrored_landmark(name);
   motion::write_motion_csv(in("after.csv"), after);
   const Outcome exchanged = call("visits v.toml");

@@ -140,6 +140,33 @@ test('what a recording lacks is said in place of the picture, and no interval wh
   await close();
 });
 
+test('values of faces of different scales are not compared', { skip: Boolean(given) }, async () => {
+  const manifest = madeUpVisits(2);
+  for (const measure of manifest.measures) measure.changes[1] = null;
+  const { page, complaints, close } = await openVisits(manifest);
+  const rows = await rowsOf(page);
+  assert.deepEqual(rows[0].slice(2), ['4.8 (4.2 to 5.4)', '7.2 (6.6 to 7.8)', 'not compared', '', '', '']);
+  assert.deepEqual(rows[18].slice(3), ['not measured', 'not measured', '', '', '']);
+  assert.equal(await page.locator('tr.beyond').count(), 0);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
+for (const count of [2, 5])
+  test(`the change and its verdict are in sight on a telephone: ${count} visits`, { skip: Boolean(given) }, async () => {
+    const { page, complaints, close } = await openVisits(madeUpVisits(count), { viewport: { width: 390, height: 844 } });
+    const box = await page.locator('.table-box').boundingBox();
+    for (const place of ['thead .change', 'thead .verdict', 'td.change >> nth=0', 'td.verdict >> nth=0']) {
+      const cell = await page.locator(`.table-box ${place}`).boundingBox();
+      assert.ok(cell.x >= box.x && cell.x + cell.width <= box.x + box.width + 1, JSON.stringify([place, box, cell]));
+    }
+    assert.deepEqual((await rowsOf(page))[0].slice(1, 4), ['R', '+2.4 (1.6 to 3.2)', 'yes']);
+    await page.setViewportSize({ width: 1440, height: 900 });
+    await page.waitForFunction(() => document.querySelector('.table-box tbody tr td:nth-last-child(2)').classList.contains('verdict'));
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
 test('of more visits another can be compared', { skip: Boolean(given) }, async () => {
   const { page, complaints, close } = await openVisits(madeUpVisits(5));
   assert.equal((await headsOf(page)).filter((head) => /^2026-\d\d-\d\d$/.test(head)).length, 5);

@@ -68,13 +68,15 @@ double measurement_half_width(const metrics::ErrorBudget& errors) {
 /// The mean of the recordings of one visit; nothing if none measures it.
 struct VisitEstimates {
   std::vector<Estimate> each;
-  bool known = true;  ///< whether jitter and head pose of all are known
+  bool known = true;      ///< whether jitter and head pose of all are known
+  bool one_scale = true;  ///< whether all faces have the scale of the first recording
 };
 
 VisitEstimates estimates_of(const Measure& measure, const std::vector<MeasuredFace>& faces,
                             double repetition_m) {
   VisitEstimates out;
   for (const MeasuredFace& face : faces) {
+    out.one_scale = out.one_scale && !face.other_scale;
     const Estimate one = estimate(measure, face, repetition_m);
     if (std::isnan(one.value)) continue;
     out.each.push_back(one);
@@ -109,6 +111,7 @@ struct Scatter {
 Scatter scatter_of(const std::vector<VisitEstimates>& visits) {
   Scatter scatter;
   for (const VisitEstimates& visit : visits) {
+    if (!visit.one_scale) continue;
     double mean = 0;
     for (const Estimate& one : visit.each) mean += one.value / double(visit.each.size());
     for (const Estimate& one : visit.each) scatter.squares += std::pow(one.value - mean, 2);
@@ -123,11 +126,12 @@ Change change_between(const VisitValue& first, const VisitValue& now, const Scat
   metrics::ErrorBudget both = first.errors;
   both += now.errors;
   const double measured = measurement_half_width(both);
+  double repeated = kWithin95 * std::sqrt(both.variance(ErrorPart::repetition));
   double all = both.half_width_95();
   if (scatter.freedom >= kLeastFreedom) {
     const double t = boost::math::quantile(boost::math::students_t(scatter.freedom), 0.975);
-    all = t * scatter.deviation() * std::sqrt(1.0 / first.recordings + 1.0 / now.recordings);
-    all = std::max(all, measured);
+    repeated = t * scatter.deviation() * std::sqrt(1.0 / first.recordings + 1.0 / now.recordings);
+    all = std::max(repeated, measured);
     both = both.without(ErrorPart::repetition);
     both.add(ErrorPart::repetition, std::max(0.0, std::pow(all / kWithin95, 2) - both.variance()));
   }
@@ -137,6 +141,7 @@ Change change_between(const VisitValue& first, const VisitValue& now, const Scat
     change.measured = Interval{change.value - measured, change.value + measured};
     change.all = Interval{change.value - all, change.value + all};
   }
+  change.within_repetition = std::abs(change.value) <= repeated;
   if (std::abs(change.value) > all) change.beyond = known ? Beyond::yes : Beyond::cannot_tell;
   change.largest = name_of(both.largest());
   return change;
@@ -150,7 +155,8 @@ MeasureOverVisits over_visits(const Measure& measure, const std::vector<VisitEst
   for (const VisitEstimates& visit : visits) {
     out.values.push_back(mean_of(visit));
     out.changes.emplace_back();
-    if (out.values.size() > 1 && out.values.front() && out.values.back())
+    if (out.values.size() > 1 && out.values.front() && out.values.back() &&
+        visits.front().one_scale && visit.one_scale)
       out.changes.back() = change_between(*out.values.front(), *out.values.back(), scatter);
   }
   return out;

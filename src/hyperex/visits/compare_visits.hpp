@@ -45,18 +45,21 @@ enum class Beyond { no, yes, cannot_tell };
 /// The difference of a visit from the first.
 struct Change {
   double value = 0;
-  std::optional<Interval> all;       ///< 95 %, with repetition; nothing: unknown, as `measured` is
-  std::optional<Interval> measured;  ///< 95 %, by measurement alone; nothing: unknown
-  /// Whether 0 lies outside `all`. If the measurement's part is unknown, a change within repetition
-  /// alone is `no`, and one beyond it is cannot_tell.
+  std::optional<Interval> all = {};  ///< 95 %, with repetition; nothing: unknown, as `measured` is
+  std::optional<Interval> measured = {};  ///< 95 %, by measurement alone; nothing: unknown
+  /// Whether 0 lies outside `all`. If a part of the measurement's error is unknown, a change within
+  /// repetition and the known parts is `no`, and one beyond them is cannot_tell.
   Beyond beyond = Beyond::no;
-  std::string largest;  ///< the largest part of the error
+  bool within_repetition = false;  ///< whether it is within repetition alone
+  std::string largest;             ///< the largest part of the error
 };
 
 struct MeasureOverVisits {
   Measure measure;
   std::vector<std::optional<VisitValue>> values;  ///< one per visit; nothing: not measured
-  std::vector<std::optional<Change>> changes;     ///< one per visit; nothing for the first
+  /// One per visit; nothing for the first, and where a visit's face has another scale than that of
+  /// the first recording.
+  std::vector<std::optional<Change>> changes;
   /// Standard deviation between the recordings of one visit, in the measure's unit; 0: too few.
   double recorded_repetition = 0;
 };
@@ -77,7 +80,8 @@ struct Comparison {
   bool repetition_measured = false;
 };
 
-/// Compares each visit with the first. `faces`: by visit and recording, one or more per visit. With
+/// Compares each visit with the first, unless a face of either has another scale
+/// (MeasuredFace::other_scale). `faces`: by visit and recording, one or more per visit. With
 /// several recordings per visit, at least kLeastFreedom of them beyond each visit's first, the
 /// standard deviation s within visits is measured, and a change has the interval t s sqrt(1/n_1 +
 /// 1/n_k), t by Student for that many degrees of freedom, but at least that of the measurement.

@@ -229,9 +229,10 @@ void settle_curves(const ByFacePoint<std::vector<int>>& columns, const motion::M
   }
 }
 
-void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
+void settle_first_way(const MeasuredFace* first, MeasuredFace& face) {
   if (first) {
     face.state.first_direction = first->state.first_direction;
+    face.state.first_excursion_m = first->state.first_excursion_m;
     return;
   }
   for (const Side side : {Side::right, Side::left}) {
@@ -239,6 +240,7 @@ void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
     const Vec3 way = face.state.axes * (at(face.state.peak, corner) - at(face.state.rest, corner));
     face.state.first_direction[std::size_t(side)] =
         way.norm() >= kLeastMovement_m ? Vec3(way.normalized()) : kUnknown;
+    face.state.first_excursion_m[std::size_t(side)] = way.norm();
   }
 }
 
@@ -246,9 +248,11 @@ void settle_first_direction(const MeasuredFace* first, MeasuredFace& face) {
 bool have_one_scale(const MeasuredFace& first, MeasuredFace& face) {
   const ScaleBetween scale = scale_between(first.rest, face.rest);
   if (!(std::abs(scale.ratio - 1) > scale.bound)) return true;
+  face.other_scale = scale.ratio;
   face.remarks.push_back(fmt::format(
       "{}: the face at rest is {:.3g} times as large as in {}, by {} points that both measure "
-      "(expected: 1, to within {:.2g} %): lengths are not comparable; check the units of both",
+      "(expected: 1, to within {:.2g} %): lengths are not comparable, and so changes are not "
+      "judged; check the units of both",
       face.file, scale.ratio, first.file, scale.common, 100 * scale.bound));
   return false;
 }
@@ -294,7 +298,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   settle_curves(columns, smooth, face);
   face.eye_distance_m = eye_distance(face.rest);
   settle_axes(first, head_points(visits, still_points), name, face);
-  settle_first_direction(first, face);
+  settle_first_way(first, face);
   note_size(first, name, face);
   return face;
 }

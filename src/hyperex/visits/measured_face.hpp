@@ -37,6 +37,9 @@ struct MeasuredFace {
   Eigen::Matrix3d axes_covariance = Eigen::Matrix3d::Zero();
   double head_fit_m = 0;  ///< rms distance of the head's points from those of the first recording
 
+  /// How many times as large the face at rest is as in the first recording, where that is another
+  /// scale (scale_between.hpp): then lengths are not comparable. Nothing: one scale.
+  std::optional<double> other_scale;
   std::vector<std::string> remarks;  ///< what the reader must know of this recording, sentences
 };
 

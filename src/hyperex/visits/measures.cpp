@@ -36,10 +36,10 @@ double smile_angle(const FaceState& face, Side side) {
 }
 
 double follows(const FaceState& face, Side side) {
-  Vec3 other = corner(face, side == Side::left ? Side::right : Side::left);
-  if (!(other.norm() >= kLeastMovement_m)) return kNan;
-  other.x() = -other.x();
-  return 100 * corner(face, side).dot(other) / other.squaredNorm();
+  const auto other = std::size_t(side == Side::left ? Side::right : Side::left);
+  Vec3 way = face.first_direction[other];  // NaN where the other corner did not move
+  way.x() = -way.x();
+  return 100 * corner(face, side).dot(way) / face.first_excursion_m[other];
 }
 
 double eye_opening(const ByFacePoint<Vec3>& points, Side side) {
@@ -102,7 +102,8 @@ void add_corners(std::vector<Measure>& all) {
            [](const FaceState& face, Side side) {
              return corner(face, side).dot(face.first_direction[std::size_t(side)]);
            });
-  add_pair(all, "corner_follows", "Corner of the mouth: follows the other side", kPercent, follows);
+  add_pair(all, "corner_follows", "Corner of the mouth: along the other side's first way", kPercent,
+           follows);
   add_single(all, "corner_difference", "Corners of the mouth: excursion R less L",
              [](const FaceState& face) {
                return excursion(face, Side::right) - excursion(face, Side::left);

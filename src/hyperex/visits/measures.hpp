@@ -15,8 +15,10 @@ struct FaceState {
   /// Rows: the directions to the subject's left, up and forward, the same on the skull at every
   /// visit; NaN if the points do not determine them.
   Eigen::Matrix3d axes;
-  /// The directions of the corners (right, left) in the first visit, in these axes.
+  /// The directions of the corners (right, left) in the first visit, in these axes; NaN where they
+  /// moved less than kLeastMovement_m.
   std::array<Vec3, 2> first_direction;
+  std::array<double, 2> first_excursion_m = {0, 0};  ///< how far they moved that way
 };
 
 struct Measure {
@@ -37,8 +39,9 @@ inline constexpr double kLeastMovement_m = 2e-3;
 ///  corner_up, corner_outward, corner_forward  its parts; outward: away from the midline
 ///  smile_angle  of its direction seen from the front: 0 outward, 90 up
 ///  corner_along_first  its part along the direction that it had at the first visit
-///  corner_follows  its part along the mirrored direction of the other corner, in % of the other's
-///                  excursion. A corner that is dragged the other way has a negative value.
+///  corner_follows  its part along the mirrored way that the other corner had at the first visit,
+///                  in % of that way. A corner that is dragged the other way has a negative value.
+///                  It changes with this corner's motion alone.
 ///  corner_difference  excursion of the right less that of the left corner
 ///  stretch_difference  100 (xi_R - xi_L), where xi is the sum of the relative changes of four
 ///                      distances from the corner of the mouth: S(t) is the logarithm of its size

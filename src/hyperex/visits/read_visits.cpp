@@ -14,6 +14,7 @@
 #include "hyperex/io/number.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/toml_values.hpp"
+#include "hyperex/visits/visit_dates.hpp"
 
 namespace hyperex::visits {
 namespace fs = std::filesystem;
@@ -42,6 +43,7 @@ class Reader {
       out_.rigid_points = texts("rigid_points", values_.root["rigid_points"]);
     read_all();
     if (!problems_.empty()) throw InputError(problems_);
+    out_.order_remark = sort_by_date(out_.visits);
     return out_;
   }
 

@@ -40,7 +40,8 @@ struct VisitsFile {
   std::optional<double> repetition_m;
   std::optional<io::LengthUnit> unit;     ///< of recordings that do not state theirs, and of scans
   std::vector<std::string> rigid_points;  ///< as motion.rigid_points of a scene; may be empty
-  std::vector<VisitEntry> visits;         ///< in the order of the file, one or more
+  std::vector<VisitEntry> visits;         ///< one or more, by date where all have one
+  std::string order_remark;               ///< a sentence on their order; may be empty
 };
 
 /// Whether a visit has scans.
@@ -53,7 +54,8 @@ bool has_scans(const VisitsFile& file);
 ///   date = 2026-03-01
 ///   recordings = ["first.csv", "second.csv"]
 ///   rest_scan = "neutral.ply"
-/// Paths are relative to the file. Throws InputError with a line for each mistake.
+/// Paths are relative to the file. Visits are sorted by date (visit_dates.hpp). Throws InputError
+/// with a line for each mistake.
 VisitsFile read_visits(const std::filesystem::path& file);
 
 }  // namespace hyperex::visits

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "hyperex/visits/norms.hpp"
+#include "hyperex/visits/visit_dates.hpp"
+#include "hyperex/visits/visit_figures.hpp"
 
 namespace hyperex::visits {
 namespace {
@@ -31,47 +33,64 @@ std::string with_side(const std::string& side, const std::string& part) {
   return char(std::toupper(text.front())) + text.substr(1);
 }
 
-std::string interval_words(const Interval& interval, double sign) {
-  const double a = sign * interval.low, b = sign * interval.high;
-  return fmt::format(" (95 %: {:.1f} to {:.1f})", std::min(a, b), std::max(a, b));
+std::string interval_words(const Interval& interval, const Headline& words) {
+  const auto bound = [&](double value) {
+    return fmt::format("{} {}", figure(std::abs(value)), value < 0 ? words.less : words.more);
+  };
+  if (interval.low < 0 && interval.high > 0)
+    return fmt::format(" (95 %: {} to {})", bound(interval.low), bound(interval.high));
+  const double a = std::abs(interval.low), b = std::abs(interval.high);
+  return fmt::format(" (95 %: {} to {})", figure(std::min(a, b)), figure(std::max(a, b)));
 }
 
 /// " on 2026-03-01", but " (before injection)".
 std::string at_visit(const std::string& label) {
-  const std::string form = "0000-00-00";
-  bool date = label.size() >= form.size();
-  for (std::size_t i = 0; date && i < form.size(); ++i)
-    date = form[i] == '-' ? label[i] == '-' : label[i] >= '0' && label[i] <= '9';
+  const bool date = !date_of(label).empty();
   return date ? " on " + label : " (" + label + ")";
 }
 
 std::string verdict(const Change& change, const Headline& words, const std::string& unit) {
-  const bool less = change.value < 0;
-  const std::string amount =
-      fmt::format("{:.1f} {} {}{}", std::abs(change.value), unit, less ? words.less : words.more,
-                  change.all ? interval_words(*change.all, less ? -1 : 1) : "");
+  const std::string amount = fmt::format("{} {} {}{}", figure(std::abs(change.value)), unit,
+                                         change.value < 0 ? words.less : words.more,
+                                         change.all ? interval_words(*change.all, words) : "");
   if (change.beyond == Beyond::yes) return amount + ", beyond what measurement and repetition make";
-  if (change.beyond == Beyond::no)
-    return amount + (change.all ? ", within what measurement and repetition make"
-                                : ", within what repetition alone makes");
+  if (change.beyond == Beyond::no) {
+    if (change.all) return amount + ", within what measurement and repetition make";
+    return amount + (change.within_repetition
+                         ? ", within what repetition alone makes"
+                         : ", within what repetition and the known errors of measurement make");
+  }
   return amount +
          "; whether that is beyond what measurement makes cannot be told, as its error is "
          "not known";
 }
 
-std::string sentence(const MeasureOverVisits& one, const Headline& words, const VisitsFile& file) {
+/// Why the first and the last visit are not compared though both are measured.
+std::string why_not_compared(const Comparison& comparison) {
+  for (const auto* visit : {&comparison.faces.back(), &comparison.faces.front()})
+    for (const MeasuredFace& face : *visit)
+      if (face.other_scale)
+        return fmt::format("as the face at rest is {:.3g} times as large in {} as in {}",
+                           *face.other_scale, face.file, comparison.faces.front().front().file);
+  return "as their faces differ in size";
+}
+
+std::string sentence(const MeasureOverVisits& one, const Headline& words,
+                     const Comparison& comparison) {
   const std::string who = with_side(one.measure.side, words.part);
-  const std::string& unit = one.measure.unit;
   const auto& first = one.values.front();
   const auto& last = one.values.back();
-  if (one.values.size() == 1)
-    return fmt::format("{}: {:.1f} {}{}.", who, first->value, unit,
-                       at_visit(file.visits.front().label));
+  const auto at = [&](const VisitValue& value, const VisitEntry& visit) {
+    return fmt::format("{} {}{}", figure(value.value), one.measure.unit, at_visit(visit.label));
+  };
+  const std::vector<VisitEntry>& visits = comparison.file.visits;
+  if (one.values.size() == 1) return fmt::format("{}: {}.", who, at(*first, visits.front()));
   if (!first || !last)
     return fmt::format("{}: not measured at both the first and the last visit.", who);
-  return fmt::format("{}: {:.1f} {}{}, {:.1f} {}{}: {}.", who, first->value, unit,
-                     at_visit(file.visits.front().label), last->value, unit,
-                     at_visit(file.visits.back().label), verdict(*one.changes.back(), words, unit));
+  const auto& change = one.changes.back();
+  return fmt::format("{}: {}, {}: {}.", who, at(*first, visits.front()), at(*last, visits.back()),
+                     change ? verdict(*change, words, one.measure.unit)
+                            : "not compared, " + why_not_compared(comparison));
 }
 
 }  // namespace
@@ -80,7 +99,7 @@ std::vector<std::string> summary(const Comparison& comparison) {
   const Headline words = headline_of(comparison.file.expression.movement);
   std::vector<std::string> out;
   for (const MeasureOverVisits& one : comparison.measures)
-    if (one.measure.key == words.key) out.push_back(sentence(one, words, comparison.file));
+    if (one.measure.key == words.key) out.push_back(sentence(one, words, comparison));
   if (const Norm* norm = norm_of(comparison.file.expression); norm && !out.empty())
     out.push_back(fmt::format(
         "Healthy adults move the {} by {:.1f} mm, SD {:.1f}, as far as they can ({} adults: {}).",
@@ -107,6 +126,7 @@ std::string repetition_sentence(const Comparison& comparison) {
 
 std::vector<std::string> remarks(const Comparison& comparison) {
   std::vector<std::string> all;
+  if (!comparison.file.order_remark.empty()) all.push_back(comparison.file.order_remark);
   for (const std::string& remark : comparison.scan_remarks)
     if (std::ranges::find(all, remark) == all.end()) all.push_back(remark);
   for (const auto& visit : comparison.faces)

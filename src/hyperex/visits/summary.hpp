@@ -9,14 +9,16 @@ namespace hyperex::visits {
 
 /// What changed between the first and the last visit, in sentences: for each side the measure that
 /// the expression is judged by. "Right corner of the mouth: 8.0 mm on 2026-06-01, 12.1 mm on
-/// 2026-03-01; 4.1 mm less (95 %: 2.3 to 5.9), beyond what measurement and repetition make." With
-/// one visit, its values alone. A last sentence has the norm of healthy adults, if there is one.
+/// 2026-03-01; 4.1 mm less (95 %: 2.3 to 5.9), beyond what measurement and repetition make." Where
+/// the interval holds no change, both of its bounds have a word: "(95 %: 1.8 less to 1.6 more)".
+/// With one visit, its values alone. Visits whose faces have different scales are not compared. A
+/// last sentence has the norm of healthy adults, if there is one.
 std::vector<std::string> summary(const Comparison& comparison);
 
 /// Where the figure for repetition comes from.
 std::string repetition_sentence(const Comparison& comparison);
 
-/// The remarks of all recordings, each once.
+/// The remarks on the order of visits and on all recordings, each once.
 std::vector<std::string> remarks(const Comparison& comparison);
 
 }  // namespace hyperex::visits

@@ -2,11 +2,13 @@
 #include "hyperex/visits/visits_page.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hyperex/core/run_together.hpp"
@@ -21,30 +23,36 @@ namespace {
 using nlohmann::json;
 
 /// A number with `digits` decimals; null where it is not measured.
-json rounded(double value, int digits = 2) {
+json rounded(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   const double scale = std::pow(10, digits);
   return std::round(value * scale) / scale;
 }
 
+/// The page rounds figures where it prints them: rounded here, too, they would differ from those of
+/// the terminal.
+json exact(double value) {
+  return std::isfinite(value) ? json(value) : json();
+}
+
 json low_of(const std::optional<Interval>& interval) {
-  return interval ? rounded(interval->low) : json();
+  return interval ? exact(interval->low) : json();
 }
 
 json high_of(const std::optional<Interval>& interval) {
-  return interval ? rounded(interval->high) : json();
+  return interval ? exact(interval->high) : json();
 }
 
 json value_json(const std::optional<VisitValue>& value) {
   if (!value) return nullptr;
-  return {{"value", rounded(value->value)},
+  return {{"value", exact(value->value)},
           {"low", low_of(value->measured)},
           {"high", high_of(value->measured)}};
 }
 
 json change_json(const std::optional<Change>& change) {
   if (!change) return nullptr;
-  return {{"value", rounded(change->value)},
+  return {{"value", exact(change->value)},
           {"low", low_of(change->all)},
           {"high", high_of(change->all)},
           {"low_measured", low_of(change->measured)},
@@ -79,14 +87,28 @@ std::vector<std::string> pictures_of(const Comparison& comparison) {
   return pictures;
 }
 
-/// What the recording of a visit without a picture lacks; else empty. The first visit determines
-/// the directions of all.
+/// Which points a recording lacks, by which directions are found.
+std::string why_no_directions(const MeasuredFace& face) {
+  static const std::vector<std::pair<std::string, std::string>> needed = {
+      {"exocanthion_R", "the outer corner of the right eye"},
+      {"exocanthion_L", "the outer corner of the left eye"},
+      {"cheilion_R", "the right corner of the mouth"},
+      {"cheilion_L", "the left corner of the mouth"}};
+  std::vector<std::string> missing;
+  for (const auto& [name, words] : needed)
+    if (!face.rest.contains(name)) missing.push_back(words);
+  if (missing.empty()) return "the corners of the eyes and of the mouth lie on one line";
+  return fmt::format("{} {} not recorded", fmt::join(missing, " and "),
+                     missing.size() > 1 ? "are" : "is");
+}
+
+/// Why a visit has no picture; else empty. The first visit determines the directions of all.
 std::string why_no_picture(const Comparison& comparison, std::size_t visit, bool without) {
   if (!without) return "";
   if (comparison.faces.front().front().state.axes.allFinite())
     return "fewer than three still points in common with the first visit";
-  return fmt::format("the outer corners of the eyes or the corners of the mouth are not recorded{}",
-                     visit == 0 ? "" : " at the first visit");
+  return why_no_directions(comparison.faces.front().front()) +
+         (visit == 0 ? "" : " at the first visit");
 }
 
 json visits_json(const Comparison& comparison) {
@@ -100,10 +122,10 @@ json visits_json(const Comparison& comparison) {
     all.push_back({{"label", entry.label},
                    {"note", entry.note},
                    {"recordings", names},
-                   {"peak_s", rounded(face.peak_s)},
-                   {"jitter_mm", face.jitter_known ? rounded(1e3 * face.jitter_m) : json()},
-                   {"head_fit_mm", v == 0 ? json() : rounded(1e3 * face.head_fit_m)},
-                   {"eye_distance_mm", rounded(1e3 * face.eye_distance_m, 1)},
+                   {"peak_s", exact(face.peak_s)},
+                   {"jitter_mm", face.jitter_known ? exact(1e3 * face.jitter_m) : json()},
+                   {"head_fit_mm", v == 0 ? json() : exact(1e3 * face.head_fit_m)},
+                   {"eye_distance_mm", exact(1e3 * face.eye_distance_m)},
                    {"picture", pictures[v]},
                    {"no_picture", why_no_picture(comparison, v, pictures[v].empty())}});
   }
@@ -121,8 +143,8 @@ json curves_json(const Comparison& comparison) {
       json time = json::array(), right = json::array(), left = json::array();
       for (std::size_t k = 0; k < face.time_s.size(); k += every) {
         time.push_back(rounded(face.time_s[k] - face.half_s, 3));
-        right.push_back(face.corner_mm[0].empty() ? json() : rounded(face.corner_mm[0][k]));
-        left.push_back(face.corner_mm[1].empty() ? json() : rounded(face.corner_mm[1][k]));
+        right.push_back(face.corner_mm[0].empty() ? json() : rounded(face.corner_mm[0][k], 4));
+        left.push_back(face.corner_mm[1].empty() ? json() : rounded(face.corner_mm[1][k], 4));
       }
       all.push_back({{"visit", v},
                      {"recording", r},
@@ -137,7 +159,7 @@ json repetition_json(const Comparison& comparison) {
   const char* const source = comparison.repetition_measured ? "recordings"
                              : comparison.file.repetition_m ? "stated"
                                                             : "default";
-  return {{"mm", rounded(1e3 * comparison.repetition_m)},
+  return {{"mm", exact(1e3 * comparison.repetition_m)},
           {"source", source},
           {"text", repetition_sentence(comparison)}};
 }

@@ -91,6 +91,87 @@ TEST(CompareVisits, UnknownJitterCannotTellOfALargeChange) {
               AllOf(HasSubstr("within what repetition alone makes"), Not(HasSubstr("95 %"))));
 }
 
+TEST(CompareVisits, AChangeBeyondRepetitionIsNotWithinRepetitionAlone) {
+  Estimate first, second;
+  for (Estimate* one : {&first, &second}) {
+    one->errors.add(metrics::ErrorPart::repetition, 0.5);
+    one->errors.add(metrics::ErrorPart::head_pose, 1.5);
+  }
+  const auto changed_by = [&](double change) {
+    second.value = change;
+    return *over_visits(measure_named("corner_excursion", "R"), {first, second}).changes.back();
+  };
+  EXPECT_TRUE(changed_by(1.9).within_repetition) << "1.96 mm by repetition alone";
+  EXPECT_FALSE(changed_by(-2.1).within_repetition);
+  EXPECT_EQ(changed_by(-2.1).beyond, Beyond::no) << "3.92 mm by both";
+
+  Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}});
+  two.measures = {named(two, "corner_excursion", "R")};
+  Change& change = *two.measures[0].changes.back();
+  change = {.value = 2, .beyond = Beyond::no, .largest = "repetition"};
+  EXPECT_THAT(summary(two)[0], AllOf(HasSubstr("2.0 mm more, within what repetition and the known "
+                                               "errors of measurement make"),
+                                     Not(HasSubstr("alone"))));
+  change.within_repetition = true;
+  EXPECT_THAT(summary(two)[0], HasSubstr("2.0 mm more, within what repetition alone makes"));
+}
+
+TEST(CompareVisits, AnIntervalAroundNoChangeHasAWordAtBothBounds) {
+  Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}});
+  two.measures = {named(two, "corner_excursion", "R")};
+  Change& change = *two.measures[0].changes.back();
+  change = {.value = -0.1, .all = Interval{-1.8, 1.6}, .beyond = Beyond::no, .largest = ""};
+  EXPECT_THAT(summary(two)[0], HasSubstr("0.1 mm less (95 %: 1.8 less to 1.6 more), within"));
+  change = {.value = -4.1, .all = Interval{-5.9, -2.3}, .beyond = Beyond::yes, .largest = ""};
+  EXPECT_THAT(summary(two)[0], HasSubstr("4.1 mm less (95 %: 2.3 to 5.9), beyond"));
+  change = {.value = -0.0484, .all = Interval{-1.0, 0.9}, .beyond = Beyond::no, .largest = ""};
+  EXPECT_THAT(summary(two)[0], HasSubstr("0.0 mm less"));
+}
+
+TEST(CompareVisits, FacesOfDifferentScalesAreNotCompared) {
+  const VisitsFile file = visits_of(3);
+  motion::Motion small = recording_of({});
+  small.source = "small.csv";
+  for (Points& at : small.positions) at *= 0.1;
+  const MeasuredFace first = measure(recording_of({}), file, 0.0, nullptr);
+  const MeasuredFace second = measure(recording_of({.right = 0.6}), file, 0.0, &first);
+  const MeasuredFace third = measure(small, file, 0.0, &first);
+  ASSERT_TRUE(third.other_scale);
+  EXPECT_NEAR(*third.other_scale, 0.1, 1e-6);
+  EXPECT_FALSE(second.other_scale);
+  const Comparison three = compare(file, {{first}, {second}, {third}});
+  const MeasureOverVisits& right = named(three, "corner_excursion", "R");
+  EXPECT_TRUE(right.values[2]) << "the value stays";
+  EXPECT_TRUE(right.changes[1]);
+  for (const MeasureOverVisits& one : three.measures)
+    EXPECT_FALSE(one.changes[2]) << one.measure.key;
+  EXPECT_THAT(summary(three)[0],
+              AllOf(HasSubstr("not compared, as the face at rest is 0.1 times as large in "
+                              "small.csv as in smile.csv"),
+                    Not(HasSubstr("less")), Not(HasSubstr("beyond"))));
+  // Its scatter does not count, and neither does a visit of which one recording is small.
+  const Comparison mixed = compare(file, {{first}, {second, third}, {second}});
+  EXPECT_FALSE(named(mixed, "corner_excursion", "R").changes[1]);
+  EXPECT_TRUE(named(mixed, "corner_excursion", "R").changes[2]);
+  EXPECT_EQ(named(mixed, "corner_excursion", "R").recorded_repetition, 0);
+}
+
+TEST(CompareVisits, TheUnchangedSideDoesNotFollowLess) {
+  const Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.5}}});
+  const Change& left = *named(two, "corner_follows", "L").changes.back();
+  EXPECT_NEAR(left.value, 0, 0.5);
+  EXPECT_EQ(left.beyond, Beyond::no);
+  const Change& right = *named(two, "corner_follows", "R").changes.back();
+  EXPECT_NEAR(right.value, -50, 0.5);
+  EXPECT_EQ(right.beyond, Beyond::yes);
+}
+
+TEST(CompareVisits, RemarksBeginWithTheOrderOfTheVisits) {
+  Comparison two = of_smiles({{Smile{}}, {Smile{}}});
+  two.file.order_remark = "the visits were sorted";
+  EXPECT_EQ(remarks(two).front(), "the visits were sorted");
+}
+
 TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
   const std::vector<double> before{0.9, 1.0, 1.1}, after{0.5, 0.7};
   std::vector<std::vector<Smile>> smiles(2);

@@ -58,6 +58,35 @@ TEST_F(ReadVisits, HasEveryKey) {
       "smile");
 }
 
+TEST_F(ReadVisits, SortsVisitsByDateAndSaysSo) {
+  const auto visits = [&](const std::string& first, const std::string& second) {
+    return read_visits(put("[[visit]]\ndate = " + first +
+                           "\nrecording = \"a.csv\"\nnote = \"a\"\n" +
+                           "[[visit]]\ndate = " + second + "\nrecording = \"b.csv\"\n"));
+  };
+  const VisitsFile exchanged = visits("2026-06-01", "2026-03-01");
+  EXPECT_EQ(exchanged.visits[0].label, "2026-03-01");
+  EXPECT_EQ(exchanged.visits[0].recordings[0].filename(), "b.csv");
+  EXPECT_EQ(exchanged.visits[1].note, "a");
+  EXPECT_THAT(exchanged.order_remark, HasSubstr("sorted by date"));
+  EXPECT_THAT(exchanged.order_remark, HasSubstr("the first is 2026-03-01"));
+  const VisitsFile rising = visits("2026-03-01", "2026-06-01");
+  EXPECT_EQ(rising.visits[0].note, "a");
+  EXPECT_EQ(rising.order_remark, "");
+  const VisitsFile one_day = visits("2026-03-01T15:00:00", "2026-03-01T09:30:00");
+  EXPECT_EQ(one_day.visits[1].note, "a");
+  // A name in quotes may begin with a date; on one day the order of the file stays.
+  EXPECT_EQ(visits("\"2026-06-01, after\"", "2026-03-01").visits[1].note, "a");
+  EXPECT_EQ(visits("\"2026-06-01, b\"", "\"2026-06-01, a\"").visits[0].note, "a");
+  for (const char* name : {"\"before\"", "\"01.03.2026\"", "\"2026-13-01\""}) {
+    const VisitsFile named = visits(name, "2026-01-01");
+    EXPECT_EQ(named.visits[0].note, "a") << name;
+    EXPECT_THAT(named.order_remark, HasSubstr("in the order of the file")) << name;
+    EXPECT_THAT(named.order_remark, HasSubstr("is no date such as 2026-03-01")) << name;
+  }
+  EXPECT_EQ(read_visits(put("[[visit]]\ndate = \"x\"\nrecording = \"a.csv\"\n")).order_remark, "");
+}
+
 TEST_F(ReadVisits, NamesWhatIsWrongAndWhere) {
   const std::string visit = "[[visit]]\ndate = 2026-03-01\nrecording = \"a.csv\"\n";
   EXPECT_THAT(refused("patient = 3\n" + visit), HasSubstr("v.toml:1: patient = 3"));

@@ -2,10 +2,17 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
+#include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/text_table.hpp"
+#include "hyperex/visits/visit_figures.hpp"
 #include "hyperex/visits/visit_picture.hpp"
 #include "hyperex/visits/visits_page.hpp"
 #include "hyperex/visits/visits_table.hpp"
@@ -56,7 +63,10 @@ TEST(VisitsOutputs, ThePageHasTheSameFigures) {
   EXPECT_EQ(manifest["patient"], "P-017 </script>");
   ASSERT_EQ(manifest["measures"].size(), two.measures.size());
   EXPECT_NEAR(manifest["measures"][0]["changes"][1]["value"].get<double>(),
-              two.measures[0].changes[1]->value, 0.006);
+              two.measures[0].changes[1]->value, 1e-12)
+      << "the page rounds it, once";
+  EXPECT_NEAR(manifest["measures"][0]["values"][1]["high"].get<double>(),
+              two.measures[0].values[1]->measured->high, 1e-12);
   EXPECT_EQ(manifest["measures"][0]["changes"][1]["beyond"], "yes");
   EXPECT_TRUE(manifest["measures"][0]["changes"][0].is_null());
   EXPECT_EQ(manifest["curves"].size(), 2u);
@@ -75,13 +85,130 @@ TEST(VisitsOutputs, ThePageSaysWhatAPictureLacks) {
   const MeasuredFace first = measure(without_corner, file, std::nullopt, nullptr);
   const MeasuredFace second = measure(recording_of({.right = 0.6}), file, std::nullopt, &first);
   const nlohmann::json manifest = page_of(compare(file, {{first}, {second}}));
-  const std::string lacks =
-      "the outer corners of the eyes or the corners of the mouth are not recorded";
+  const std::string lacks = "the outer corner of the right eye is not recorded";
   EXPECT_EQ(manifest["visits"][0]["picture"], "");
   EXPECT_EQ(manifest["visits"][0]["no_picture"], lacks);
   EXPECT_EQ(manifest["visits"][1]["no_picture"], lacks + " at the first visit");
   for (const char* bound : {"low", "high"})
     EXPECT_TRUE(manifest["measures"][0]["changes"][1][bound].is_null()) << "an unknown jitter";
+}
+
+TEST(VisitsOutputs, TheCornersOfTheMouthAreNotMissingWhereTheyAreRecorded) {
+  VisitsFile file = visits_of(1);
+  file.visits[0].recordings = {"smile.csv"};
+  const auto lacks = [&](const std::vector<std::string>& missing) {
+    motion::Motion some = recording_of({});
+    for (std::string& name : some.names)
+      if (std::ranges::count(missing, name) > 0) name = "marker_" + name;
+    const MeasuredFace face = measure(some, file, 0.0, nullptr);
+    return page_of(compare(file, {{face}}))["visits"][0]["no_picture"].get<std::string>();
+  };
+  EXPECT_EQ(lacks({"ibug68_36", "ibug68_45"}),
+            "the outer corner of the right eye and the outer corner of the left eye are not "
+            "recorded");
+  EXPECT_EQ(lacks({"ibug68_54"}), "the left corner of the mouth is not recorded");
+}
+
+TEST(VisitFigures, AreRoundedOnce) {
+  EXPECT_EQ(figure(3.7489), "3.7");
+  EXPECT_EQ(figure(-17.3486), "-17.3");
+  EXPECT_EQ(figure(-0.0484), "0.0");
+  EXPECT_EQ(signed_figure(-0.0484), "0.0");
+  EXPECT_EQ(signed_figure(0.0484), "0.0");
+  EXPECT_EQ(signed_figure(5.5547), "+5.6");
+  EXPECT_EQ(signed_figure(-0.06), "-0.1");
+}
+
+/// A mouth that opens: the points of the upper lip go up, those of the lower lip down, by these
+/// lengths (m), less beside the corners. The corners may smile meanwhile.
+MeasuredFace parted_lips(double up_m, double down_m, const Smile& smile) {
+  motion::Motion opening = recording_of(smile);
+  const std::map<int, double> shares = {
+      {49, 0.6},  {50, 1},  {51, 1},  {52, 1},  {53, 0.6},  {61, 1},  {62, 1},  {63, 1},
+      {55, -0.6}, {56, -1}, {57, -1}, {58, -1}, {59, -0.6}, {65, -1}, {66, -1}, {67, -1}};
+  const double whole = std::max(1, int(opening.positions.size()) - 1);
+  for (std::size_t k = 0; k < opening.positions.size(); ++k)
+    for (const auto& [point, share] : shares)
+      opening.positions[k](point, 1) +=
+          share * (share > 0 ? up_m : down_m) * std::sin(std::numbers::pi * double(k) / whole);
+  VisitsFile file = visits_of(1);
+  file.expression = *expression_named("mouth open");
+  return measure(opening, file, 0.0, nullptr);
+}
+
+double distance_to(const Points& surface, const std::vector<int>& vertices,
+                   const Eigen::RowVector3d& p) {
+  double least = 1;
+  for (const int v : vertices) least = std::min(least, (surface.row(v) - p).norm());
+  return least;
+}
+
+int flipped_triangles(const anatomy::EmbeddedFace& average, const Points& at_rest,
+                      const Points& moved) {
+  const auto normal = [](const Points& points, const auto& triangle) {
+    const Vec3 a = points.row(triangle[0]), b = points.row(triangle[1]),
+               c = points.row(triangle[2]);
+    return Vec3((b - a).cross(c - a));
+  };
+  int count = 0;
+  for (const auto triangle : average.mesh.triangles.rowwise())
+    count += normal(at_rest, triangle).dot(normal(moved, triangle)) <= 0;
+  return count;
+}
+
+/// Each vertex of the border between the lips, with its lip.
+struct LipBorders {
+  std::vector<int> upper, lower;
+
+  explicit LipBorders(const anatomy::EmbeddedFace& average) {
+    const std::vector<double> margin = anatomy::upper_lip_margin(average.mesh, average.landmarks);
+    constexpr double sure_m = 0.004;  // at the corners it is 0
+    for (const int v : anatomy::mouth_border(average.mesh, average.landmarks))
+      if (std::abs(margin[std::size_t(v)]) > sure_m)
+        (margin[std::size_t(v)] > 0 ? upper : lower).push_back(v);
+  }
+};
+
+TEST(PeakSurface, ThePartedLipsLieApartEverywhere) {
+  const anatomy::EmbeddedFace average = anatomy::embedded_face();
+  const Points at_rest = *peak_surface(parted_lips(0, 0, {.right = 0, .left = 0}));
+  const LipBorders lips(average);
+  ASSERT_GT(lips.upper.size(), 30u);
+  const double inner_m = std::abs(average.landmarks.at("ibug68_61").x());
+  for (const double smile : {0.0, 1.0}) {
+    const Points moved = *peak_surface(parted_lips(0.003, 0.007, {.right = smile, .left = smile}));
+    EXPECT_EQ(flipped_triangles(average, at_rest, moved), 0) << smile;
+    int between = 0;
+    for (const int v : lips.upper) {
+      const double apart = distance_to(moved, lips.lower, moved.row(v));
+      EXPECT_GT(apart, 0.0005) << v;
+      // Between the outer ones of the inner points the opening is that of the points.
+      if (std::abs(average.mesh.points(v, 0)) > inner_m) continue;
+      EXPECT_NEAR(apart, 0.010, 0.0015) << v;
+      ++between;
+    }
+    EXPECT_GT(between, 10);
+  }
+}
+
+TEST(PeakSurface, LipsThatCloseMeetHalfWay) {
+  const Points closed = *peak_surface(parted_lips(-0.002, -0.002, {.right = 0, .left = 0}));
+  const anatomy::EmbeddedFace average = anatomy::embedded_face();
+  const LipBorders lips(average);
+  for (const int v : lips.upper) {
+    int nearest = lips.lower.front();
+    for (const int other : lips.lower)
+      if (std::abs(closed(other, 0) - closed(v, 0)) < std::abs(closed(nearest, 0) - closed(v, 0)))
+        nearest = other;
+    EXPECT_GT(closed(v, 1) - closed(nearest, 1), -0.001) << "by 4 mm where nothing holds them";
+  }
+}
+
+TEST(PeakSurface, ThePointBetweenTheLipsHoldsNeither) {
+  MeasuredFace face = parted_lips(0.003, 0.007, {.right = 0, .left = 0});
+  const Points moved = *peak_surface(face);
+  face.rest["stomion"] = face.peak["stomion"] = face.rest.at("ibug68_62");
+  EXPECT_LT((*peak_surface(face) - moved).norm(), 1e-12);
 }
 
 /// Sum of differences over the pixels of the left or right half of two pictures.

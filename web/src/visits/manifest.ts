@@ -29,7 +29,7 @@ export interface VisitCurve {
   left_mm: (number | null)[];
 }
 
-/** With its interval of 95 % by measurement alone; null: not known. */
+/** With its interval of 95 % by measurement alone; null: not known. Figures are exact: the page rounds them, once. */
 export interface Value {
   value: number;
   low: number | null;
@@ -59,7 +59,7 @@ export interface Measure {
   unit: 'mm' | 'degrees' | '%';
   /** One for each visit; null: not measured. */
   values: (Value | null)[];
-  /** One for each visit; the first is null. */
+  /** One for each visit; the first is null, and so are those whose face has another scale than the first visit's. */
   changes: (Change | null)[];
 }
 

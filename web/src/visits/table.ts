@@ -20,10 +20,10 @@ function head(text: string | Node[], className = ''): HTMLTableCellElement {
 /** A date is not broken at its hyphens; a long label is. */
 const labelOf = (label: string): HTMLElement => element('span', label, label.length <= 14 ? 'unbroken' : '');
 
-function figureCell(figure: Figure | null, className: string): HTMLTableCellElement {
+function figureCell(figure: Figure | null, className: string, without = 'not measured'): HTMLTableCellElement {
   if (!figure) {
     const cell = element('td', '', className);
-    cell.append(element('span', 'not measured', 'undecided'));
+    cell.append(element('span', without, 'undecided'));
     return cell;
   }
   const cell = element('td', '', className);
@@ -52,14 +52,24 @@ function rowHeads(measure: Measure, group: Measure[], place: number): HTMLTableC
   return cells;
 }
 
-function changeCells(change: Change | null, unit: Measure['unit']): HTMLTableCellElement[] {
-  if (!change) return [figureCell(null, 'change'), element('td', '', 'measured'), element('td', '', 'verdict'), element('td', '', 'part')];
+/** Beside two values that are not compared their change is missing, too; the notes say why. */
+function changeCells(change: Change | null, { unit, values }: Measure, visit: number): HTMLTableCellElement[] {
+  if (!change) return [figureCell(null, 'change', values[0] && values[visit] ? 'not compared' : 'not measured'), element('td', '', 'measured'), element('td', '', 'verdict'), element('td', '', 'part')];
   const figure = changeFigure(change, unit);
   const verdict = element('td', change.beyond, 'verdict');
   verdict.dataset.beyond = change.beyond;
   const over = figureCell(figure, 'change');
   over.title = `By measurement alone: ${figure.measured}`;
   return [over, element('td', figure.measured, 'measured'), verdict, element('td', partWords[change.largest] ?? change.largest, 'part')];
+}
+
+/** As in the style sheet. */
+const narrow = window.matchMedia('(max-width: 600px)');
+
+/** A telephone shows the answer first: the change and its verdict, then the values. One visit has no changes. */
+function inOrder(values: HTMLElement[], changes: HTMLElement[]): HTMLElement[] {
+  const [change, measured, verdict, part] = changes;
+  return narrow.matches && change ? [change, verdict, ...values, measured, part] : [...values, ...changes];
 }
 
 export class MeasureTable {
@@ -74,6 +84,7 @@ export class MeasureTable {
     this.box.setAttribute('aria-label', 'Table of measures');
     host.append(top, this.box);
     choice.onChange(() => this.show());
+    narrow.addEventListener('change', () => this.show());
   }
 
   private chooser(): HTMLElement {
@@ -99,12 +110,12 @@ export class MeasureTable {
     const row = element('tr');
     const name = head('Measure', 'name');
     name.colSpan = 2;
-    row.append(name, ...visits.map(({ label }, visit) => head([labelOf(label)], this.columnClass(visit))));
-    if (visits.length > 1)
-      row.append(
-        head([new Text('Change, '), labelOf(visits[this.choice.visit].label), new Text(' against '), labelOf(visits[0].label)], 'change'), head('By measurement alone', 'measured'),
-        head('Beyond what measurement and repetition make', 'verdict'), head('Interval mostly from', 'part'),
-      );
+    const values = visits.map(({ label }, visit) => head([labelOf(label)], this.columnClass(visit)));
+    const changes = visits.length > 1 ? [
+      head([new Text('Change, '), labelOf(visits[this.choice.visit].label), new Text(' against '), labelOf(visits[0].label)], 'change'), head('By measurement alone', 'measured'),
+      head('Beyond what measurement and repetition make', 'verdict'), head('Interval mostly from', 'part'),
+    ] : [];
+    row.append(name, ...inOrder(values, changes));
     return row;
   }
 
@@ -112,11 +123,12 @@ export class MeasureTable {
     const { visits } = this.manifest;
     const change = measure.changes[this.choice.visit] ?? null;
     const row = element('tr', '', change?.beyond === 'yes' ? 'beyond' : '');
-    row.append(...rowHeads(measure, group, place), ...visits.map((_, visit) => {
+    const values = visits.map((_, visit) => {
       const value = measure.values[visit] ?? null;
       return figureCell(value && valueFigure(value, measure.unit), this.columnClass(visit));
-    }));
-    if (visits.length > 1) row.append(...changeCells(change, measure.unit));
+    });
+    const changes = visits.length > 1 ? changeCells(change, measure, this.choice.visit) : [];
+    row.append(...rowHeads(measure, group, place), ...inOrder(values, changes));
     return row;
   }
 
