@@ -15,6 +15,8 @@ using Json = nlohmann::ordered_json;
 
 /// A change below half of the last digit printed counts as none.
 constexpr double kSame_mm = 0.05;
+/// A floor below this would be printed as 0.000, as that of points without any noise. It is none.
+constexpr double kNoFloor_mm = 0.0005;
 
 double corner_number(const Json& json, const std::string& key, double otherwise) {
   return json.contains(key) && json[key].is_number() ? json[key].get<double>() : otherwise;
@@ -57,7 +59,8 @@ std::string difference_words(const Json& corners, double shown_mm, double exact_
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
   const std::string cannot_tell = "the recording cannot tell, as its jitter is not known";
-  if (floor_mm <= 0) return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
+  if (floor_mm < kNoFloor_mm)
+    return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
   const HeldAgainst apart = held_against(shown_mm, exact_mm, floor_mm);
   return fmt::format(
       "{} mm: {} the floor of {} mm ({}){}", apart.own,
@@ -142,17 +145,18 @@ std::string change_words(const CornerChange& c) {
   return way + moved_words(by, held.own, c.weaker) + band + cannot_tell + hidden;
 }
 
-/// Where the jaw alone would carry the corner; empty where it does not move, or is not known.
-std::string jaw_clause(const Json& variant, const std::string& side) {
+/// Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not
+/// known.
+std::string jaw_sentence(const Json& variant, const std::string& side) {
   const std::string corner = "commissure_" + side;
   const double jaw_mm = corner_number(variant, corner + "_with_jaw_mm", 0),
-               turned_mm = corner_number(variant, corner + "_with_turned_jaw_mm", -1);
+               turned_mm = corner_number(variant, corner + "_with_turned_jaw_mm", std::nan(""));
   if (!(jaw_mm >= kSame_mm)) return "";
   return fmt::format(
-      " (fixed to the lower jaw it would go {:.1f} mm{}; skin follows the jaw in part)", jaw_mm,
-      turned_mm < 0 ? ""
-                    : fmt::format(", and {:.1f} mm if the jaw only turned about its joints",
-                                  printed_mm(turned_mm)));
+      "; fixed to the lower jaw it would go {:.1f} mm{}, and skin follows the jaw in part", jaw_mm,
+      std::isnan(turned_mm)
+          ? ""
+          : fmt::format(" ({:.1f} mm if the jaw only turned about its joints)", turned_mm));
 }
 
 /// Why a corner on a side of which no muscle pulls still moves, a line for each such side.
@@ -161,9 +165,10 @@ std::string unpulled_lines(const Json& variant) {
   for (const Json& side : variant.value("unpulled_sides", Json::array())) {
     const auto letter = side.get<std::string>();
     lines += fmt::format(
-        "    no muscle pulls on the {}, so that its corner moves by no strength of its own: the "
-        "jaw{}, the other side, and forces that no muscle explains move it\n",
-        letter == "R" ? "right" : "left", jaw_clause(variant, letter));
+        "    no muscle pulls on the {}: its corner moves by no strength of its own, but by the "
+        "jaw, "
+        "the other side, and forces that no muscle explains{}\n",
+        letter == "R" ? "right" : "left", jaw_sentence(variant, letter));
   }
   return lines;
 }

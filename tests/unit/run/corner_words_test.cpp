@@ -120,17 +120,17 @@ TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
   changed["commissure_R_with_jaw_mm"] = 5.04;
   EXPECT_THAT(
       variant_lines(summary),
-      HasSubstr("\n    no muscle pulls on the right, so that its corner moves by no strength "
-                "of its own: the jaw (fixed to the lower jaw it would go 5.0 mm; skin "
-                "follows the jaw in part), the other side, and forces that no muscle "
-                "explains move it\n"));
+      HasSubstr("\n    no muscle pulls on the right: its corner moves by no strength of its "
+                "own, but by the jaw, the other side, and forces that no muscle explains; "
+                "fixed to the lower jaw it would go 5.0 mm, and skin follows the jaw in "
+                "part\n"));
   changed["commissure_R_with_turned_jaw_mm"] = 3.16;
-  EXPECT_THAT(variant_lines(summary),
-              HasSubstr("the jaw (fixed to the lower jaw it would go 5.0 mm, and 3.2 mm if the jaw "
-                        "only turned about its joints; skin follows the jaw in part), the other"));
+  EXPECT_THAT(
+      variant_lines(summary),
+      HasSubstr("it would go 5.0 mm (3.2 mm if the jaw only turned about its joints), and"));
   for (const Json& unknown : {Json(), Json(std::nan(""))}) {
     changed["commissure_R_with_jaw_mm"] = unknown;
-    EXPECT_THAT(variant_lines(summary), HasSubstr("own: the jaw, the other side, and"));
+    EXPECT_THAT(variant_lines(summary), HasSubstr("forces that no muscle explains\n"));
   }
 }
 
@@ -254,6 +254,19 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
               HasSubstr("a difference of 1.0 mm: more than the floor of 0.1 mm (mesh), but the "
                         "recording cannot tell, as its jitter is not known\n"));
   corners["floor_mm"] = nullptr;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("a difference of 1.0 mm: the recording cannot tell, as its jitter is not "
+                        "known\n"));
+}
+
+// What rounding leaves of the pose's floor, where no point has noise.
+TEST(CornerWords, AFloorThatWouldBePrintedAsZeroIsNone) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["floor_mm"] = 1.4e-14;
+  corners["largest_part"] = "head pose";
+  EXPECT_THAT(corners_line(summary), HasSubstr("a difference of 1.0 mm\n"));
+  corners["undecided"] = nullptr;
   EXPECT_THAT(corners_line(summary),
               HasSubstr("a difference of 1.0 mm: the recording cannot tell, as its jitter is not "
                         "known\n"));

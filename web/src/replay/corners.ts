@@ -33,6 +33,9 @@ const names: [left: string, right: string, pair: string][] = [
 ];
 const largest = (track: (number | null)[]): number => Math.max(0, ...track.map((v) => v ?? 0));
 
+/** A floor that would be shown as 0.000 mm, as that of points without any noise, is none. */
+const shownFloorMm = (mm: number): number => (mm < 5e-4 ? 0 : mm);
+
 /** 95 % bound of a difference of two positions per side with this jitter per coordinate, for a page that states no floor. */
 export const jitterFloorMm = (jitterMm: number): number => 1.96 * 2 * jitterMm;
 
@@ -52,7 +55,7 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
     const leftMm = pair?.excursion_mm.L ?? largest(left);
     const rightMm = pair?.excursion_mm.R ?? largest(right);
     const budget = face === 0 ? budgetOf(replay, { figure: 'difference' }) : null;
-    const floorMm = budget?.known_half_width_95_mm ?? pair?.floor_mm ?? jitterFloorMm(replay.faces[face].symmetry?.jitter_mm ?? 0);
+    const floorMm = shownFloorMm(budget?.known_half_width_95_mm ?? pair?.floor_mm ?? jitterFloorMm(replay.faces[face].symmetry?.jitter_mm ?? 0));
     return {
       timeS: landmarks.timeS, left, right, leftMm, rightMm, floorMm,
       undecided: budget ? budget.decided === false : pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,

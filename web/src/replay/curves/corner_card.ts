@@ -144,12 +144,12 @@ function whatWords(replay: Replay, face: number): string {
   return `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.${direction}`;
 }
 
-/** Where the jaw alone would carry the corner; empty where it does not move, or is not known. */
-function jawClause(row: VariantRow | undefined, side: Side): string {
+/** Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not known. */
+function jawSentence(row: VariantRow | undefined, side: Side): string {
   const [withJaw, turned] = ['with_jaw', 'with_turned_jaw'].map((what) => row?.[`commissure_${letterOf[side]}_${what}_mm`]);
   if (!isNumber(withJaw) || withJaw < sameMm) return '';
-  const joints = isNumber(turned) ? `, and ${mm(turned)} if the jaw only turned about its joints` : '';
-  return ` (fixed to the lower jaw it would go ${mm(withJaw)}${joints}; skin follows the jaw in part)`;
+  const joints = isNumber(turned) ? ` (${mm(turned)} if the jaw only turned about its joints)` : '';
+  return ` Fixed to the lower jaw it would go ${mm(withJaw)}${joints}, and skin follows the jaw in part.`;
 }
 
 /** Why a corner still moves on a side of which no muscle of this face pulls; empty where some do. */
@@ -157,7 +157,7 @@ function unpulledWords(row: VariantRow | undefined): string {
   const unpulled: unknown = row?.unpulled_sides;
   if (!Array.isArray(unpulled)) return '';
   return sides.filter((side) => unpulled.includes(letterOf[side])).map((side) => {
-    return `No muscle pulls on the ${side}, so that its corner moves by no strength of its own: the jaw${jawClause(row, side)}, the other side, and forces that no muscle explains move it.`;
+    return `No muscle pulls on the ${side}: its corner moves by no strength of its own, but by the jaw, the other side, and forces that no muscle explains.${jawSentence(row, side)}`;
   }).join(' ');
 }
 
