@@ -59,6 +59,9 @@ void Session::answer(const Request& request) {
     report_progress("");
     out = {{"error", without_folder(error.what())}};
   }
+  if (out.contains("error") && request.name == "open" &&
+      request.fields.value("what", "") == "started")
+    tell_of_started(out["error"]);
   // These requests may have released faces, which use most of the session's memory.
   constexpr std::string_view kShrink[] = {"open", "undo", "redo", "remove_variant"};
   if (std::find(std::begin(kShrink), std::end(kShrink), request.name) != std::end(kShrink))
@@ -68,6 +71,12 @@ void Session::answer(const Request& request) {
   if (request.name != "hello") return;
   if (face_) send_scene();
   if (live_) live_->send_status();
+}
+
+void Session::tell_of_started(const std::string& error) const {
+  if (!options_.tell) return;
+  const std::string name = options_.started.filename().string();
+  options_.tell(error.find(name) == std::string::npos ? name + ": " + error : error);
 }
 
 OpenFace& Session::require_face() {

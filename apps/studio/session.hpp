@@ -39,6 +39,8 @@ struct SessionOptions {
   bool bands = true;                ///< error bands are computed while the session is idle
   KeptResults kept;
   std::function<bool()> ending = {};  ///< the studio is ending: abandon a run that is being saved
+  /// Says in the terminal why `started` cannot be opened, as the page does; empty: nowhere else.
+  std::function<void(const std::string&)> tell = {};
 };
 
 /// One user's work: the scene's text, its history and the open face. Requests are answered in order
@@ -53,7 +55,8 @@ class Session {
 
   /// The handler of each request of protocol.json, by name.
   static const std::map<std::string_view, Handler>& handlers();
-  /// Sends the answer to a request; an error is sent as an answer too.
+  /// Sends the answer to a request; an error is sent as an answer too. One of the file that the
+  /// command line names goes to SessionOptions::tell, too.
   void answer(const Request& request);
   /// Whether all changes are saved in the user's own files.
   bool saved() const { return saved_; }
@@ -184,6 +187,7 @@ class Session {
 
   // Background work (session.cpp).
   void run_motion(const std::function<bool()>& cancelled);
+  void tell_of_started(const std::string& error) const;
   void expect_variant();
   void find_bands(const std::function<bool()>& cancelled);
   void find_budget(const std::function<bool()>& cancelled);

@@ -107,7 +107,8 @@ SessionOptions session_options(const StudioOptions& options, const SessionFolder
           .mirrored = options.mirrored,
           .bands = options.bands,
           .kept = options.kept,
-          .ending = [&queue] { return queue.closed(); }};
+          .ending = [&queue] { return queue.closed(); },
+          .tell = [](const std::string& text) { spdlog::error("{}", text); }};
 }
 
 /// Keeps the session's folder if it contains unsaved work; likewise the rescued one.
@@ -124,6 +125,8 @@ void leave_unsaved_work(const Session& session, SessionFolder& folder) {
 }  // namespace
 
 void run_studio(const StudioOptions& options) {
+  if (fs::is_directory(options.started))
+    throw InputError(options.started, "is a folder; expected a scene (.toml) or a scan");
   if (!options.started.empty() && !fs::is_regular_file(options.started))
     throw InputError(options.started, "no such file: expected a scene (.toml) or a scan");
   if (!fs::is_directory(options.save_into))

@@ -177,6 +177,19 @@ TEST_F(NewCommand, RefusesWhatIsNoRecording) {
   EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
 }
 
+TEST_F(NewCommand, RefusesAnEmptyTableInOneLine) {
+  put(in("empty.csv"), "");
+  put(in("times.csv"), "time_s\n0\n");
+  for (const auto& [file, why] :
+       {std::pair{"empty.csv", "empty.csv: is empty; expected a table whose first line names"},
+        {"times.csv", "times.csv: there are no points: expected NAME_x"}}) {
+    const Outcome made = call(std::string("new face.ply ") + file + " --out a.toml");
+    EXPECT_EQ(made.status, 2);
+    EXPECT_THAT(problems_in(made.err), testing::ElementsAre(HasSubstr(why)));
+    EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
+  }
+}
+
 TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {
   cv::imwrite(in("grey.png").string(), cv::Mat(48, 64, CV_8UC3, cv::Scalar::all(90)));
   const Outcome made = call("new face.ply grey.png --out a.toml");

@@ -3,8 +3,10 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <regex>
+#include <utility>
 
 #include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
@@ -84,6 +86,43 @@ TEST_F(RunOutputs, TheRightSideComesFirst) {
     }
   }
   EXPECT_GT(pairs, 20) << "columns of curves, excursions, variants and muscles";
+}
+
+/// Points with noise, brows that rise and a cheek's outline that moves.
+TEST_F(RunOutputs, SayWhatDroveAndWhatTheHeadsPoseMayMake) {
+  write_opening(in("patients/Smith_John"), 0, 16, [](motion::Motion& m) {
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      for (Eigen::Index p = 0; p < m.positions[k].rows(); ++p)
+        for (int c = 0; c < 3; ++c)
+          m.positions[k](p, c) += 3e-4 * std::sin(37.0 * double(k) + 17.0 * double(p) + 5.0 * c);
+    for (const auto& [name, up_m] : {std::pair{"ibug68_19", 6e-3}, {"ibug68_3", 8e-3}})
+      for (std::size_t k = 0; k < m.positions.size(); ++k)
+        m.positions[k](m.index_of(name), 1) += up_m * std::min(1.0, double(k) / 6);
+  });
+  const Outcome done = call(
+      "run patients/Smith_John/scene.toml --out out --set output.vtu=false "
+      "--set output.glb=false --set output.report=false");
+  ASSERT_EQ(done.status, 0) << done.err;
+  const auto corners = summary()["symmetry"]["commissure"];
+  const auto part = [&](const char* name) { return corners[name].get<double>(); };
+  EXPECT_GT(part("pose_floor_mm"), 0.01);
+  EXPECT_NEAR(part("floor_mm"),
+              std::hypot(part("jitter_floor_mm"), part("mesh_floor_mm"), part("pose_floor_mm")),
+              1e-9);
+  const auto rough = summary()["roughness_at_peak"];
+  EXPECT_GT(rough["rms_mm"].get<double>(), 0);
+  EXPECT_GT(rough["p99_mm"].get<double>(), rough["rms_mm"].get<double>());
+  for (const char* key : {"brows_rms_mm", "corners_rms_mm", "chin_rms_mm"})
+    EXPECT_TRUE(rough[key].is_number()) << key;
+  EXPECT_THAT(text_of("drive.parts_joined"),
+              testing::HasSubstr("driven in addition to the mouth, since they move: brows ("));
+  EXPECT_THAT(text_of("drive.measured_not_driven"),
+              testing::HasSubstr("recorded, but not driven: outline of the face ("));
+  // The options name the points that drove, not the default ones alone.
+  const auto points = summary()["options"]["drive"]["points"];
+  EXPECT_THAT(points, testing::Contains("ibug68_19"));
+  EXPECT_THAT(points, testing::Contains("ibug68_48"));
+  EXPECT_THAT(points, testing::Not(testing::Contains("ibug68_3")));
 }
 
 TEST_F(RunOutputs, FramesOpenAfterTheFolderWasMoved) {

@@ -155,7 +155,7 @@ class Session {
     const unknown = { half_width_95_mm: null, largest_part: '' };
     const figures = [
       figure('excursion', 'R', 8, 1), figure('excursion', 'L', 8.04, 1), figure('difference', '', 0.04, 1.5, { decided: false }),
-      ...this.faces.slice(1, 2).flatMap(({ name: variant }) => [figure('change', 'R', -3, 1, { variant, decided: null, ...unknown }), figure('change', 'L', -0.01, 0.2, { variant, decided: false })]),
+      ...this.faces.slice(1, 2).flatMap(({ name: variant }) => [figure('change', 'R', -2.94, 1, { variant, shown_mm: -3, decided: null, ...unknown }), figure('change', 'L', -0.01, 0.2, { variant, shown_mm: 0, decided: false })]),
     ];
     this.send({ event: 'budget', figures, missing: [], jitter_known: false, text: JSON.stringify(this.faces) });
   }

@@ -92,7 +92,8 @@ async function dragged(change) {
   }];
   data.summary.symmetry = { ...data.summary.symmetry, excursions: pair(6.74, 6.71) };
   Object.assign(base, { commissure_R_mm: 6.74, commissure_L_mm: 6.71 });
-  const { right, left = 6.76, along = right, weaker = ['R'], more = {} } = change;
+  const { right, left = 6.76, along = right, weaker = ['R'], more = {}, budget } = change;
+  if (budget) data.summary.error_budget = { corners_of_the_mouth: budget(own.name) };
   Object.assign(own, {
     excursions: pair(right, left), commissure_R_mm: right, commissure_L_mm: left, commissure_R_band_mm: 0.7, commissure_L_band_mm: 0.2,
     commissure_R_along_base_mm: along, commissure_L_along_base_mm: left, weaker_sides: weaker, ...more,
@@ -159,9 +160,46 @@ test('the figure in the unchanged direction has a band of its own', async () => 
   assert.match((await dragged({ right: 4.1, along: 1.5, more: unknown })).change, /; in the unchanged direction 5\.2 mm less, cannot tell$/);
 });
 
+/** The right corner's change and the difference of base's sides in an error budget. */
+const budgetWith = (half, known, decided) => (variant) => {
+  const more = { half_width_95_mm: half, known_half_width_95_mm: known, decided, largest_part: 'mesh' };
+  return [{ figure: 'difference', value_mm: -0.03, ...more }, { variant, figure: 'change', side: 'R', value_mm: -2.64, ...more }];
+};
+
+test('the interval of the error budget stands in place of the band, which leaves most errors out', async () => {
+  const { change, line } = await dragged({ right: 4.1, budget: budgetWith(1.94, 1.94, true) });
+  assert.equal(change, 'right moves 2.6 mm less than in base (95 %: ± 1.9 mm)');
+  assert.equal(line, 'right corner 4.1 mm, moves 2.6 mm less than in base (95 %: ± 1.9 mm)');
+  assert.equal((await dragged({ right: 4.1, budget: budgetWith(2.94, 2.94, false) })).change, 'right moves 2.6 mm less than in base: undecided (below 2.9 mm)');
+  assert.equal((await dragged({ right: 4.1, budget: budgetWith(null, 1.2, null) })).change,
+    'right moves 2.6 mm less than in base (at least ± 1.2 mm): cannot tell, as the jitter of the recording is not known');
+  // The budget has no interval for the second figure.
+  const more = { commissure_R_along_base_band_mm: 0.84, commissure_R_along_base_decided: 1 };
+  assert.equal((await dragged({ right: 4.1, along: 1.5, more, budget: budgetWith(1.94, 1.94, true) })).change,
+    'right moves 2.6 mm less than in base (95 %: ± 1.9 mm); in the unchanged direction 5.2 mm less');
+});
+
+test('the interval of the error budget stands in place of the floor of base', async () => {
+  const { html, data } = await readPage(fixture('variants.html'));
+  data.summary.symmetry = { ...data.summary.symmetry, excursions: [{
+    point: 'cheilion', excursion_mm: { R: 6, L: 7.04 }, path_mm: { R: 1, L: 1 }, peak_speed_mm_s: { R: 1, L: 1 }, speed_correlation: 1, undecided: false, floor_mm: 0.1,
+  }] };
+  data.summary.error_budget = { corners_of_the_mouth: budgetWith(1.84, 1.84, false)('') };
+  const file = join(await mkdtemp(join(tmpdir(), 'hyperex-page-')), 'budget.html');
+  await writeFile(file, withData(html, data));
+  const { page, close } = await openPage(browser, file);
+  assert.match(await page.locator('#headline').textContent(), /a difference of 1\.0 mm: undecided \(below 1\.8 mm\)$/);
+  assert.match(await page.locator('.corners .floor').textContent(), /cannot be told from what all errors of the error budget together make \(95 %\), 1\.8 mm\./);
+  await close();
+  await rm(dirname(file), { recursive: true });
+});
+
 test('what still moves a side of which no muscle pulls', async () => {
-  const { line } = await dragged({ right: 4.1, more: { unpulled_sides: ['R'], commissure_R_with_jaw_mm: 5.04 } });
-  assert.match(line, / No muscle pulls on the right: what motion is left there comes from the jaw \(fixed to it, the corner would go 5\.0 mm\), the other side, and forces that no muscle explains\.$/);
+  const more = { unpulled_sides: ['R'], commissure_R_with_jaw_mm: 5.04 };
+  const { line } = await dragged({ right: 4.1, more });
+  assert.match(line, / No muscle pulls on the right: its corner moves by no strength of its own, but by the jaw, the other side, and forces that no muscle explains\. Fixed to the lower jaw it would go 5\.0 mm, and skin follows the jaw in part\.$/);
+  const turned = await dragged({ right: 4.1, more: { ...more, commissure_R_with_turned_jaw_mm: 3.16 } });
+  assert.match(turned.line, /it would go 5\.0 mm \(3\.2 mm if the jaw only turned about its joints\), and skin/);
 });
 
 test('a change within its band is undecided', async () => {

@@ -165,6 +165,9 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
       'Right changes by −3.0 mm (at least ± 1.0), cannot tell', 'Left changes by 0.0 mm (95 %: −0.2 to 0.2; mostly mesh), undecided',
       'The recording’s jitter is not known, so each ± is only a lower bound.',
     ]);
+    // The interval stands in place of the band in the answer, too.
+    assert.match(await page.locator('.answer-side[data-side=right] .answer-change').textContent(), /3\.0 mm less than base \(at least ± 1\.0 mm\) \(cannot tell/);
+    assert.match(await page.locator('.answer-side[data-side=left] .answer-change').textContent(), /undecided: .*\(95 %: ± 0\.2 mm\)/);
     assert.equal(await page.locator('.certainty-ask').isVisible(), false);
     await page.locator('[data-mode=single]').dispatchEvent('click');
     await page.locator('#tabs .tab-name').first().dispatchEvent('click');

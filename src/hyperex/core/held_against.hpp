@@ -8,6 +8,18 @@
 
 namespace hyperex {
 
+/// A length as it is printed, with one decimal (mm).
+inline double printed_mm(double mm) {
+  return std::round(10 * mm) / 10;
+}
+
+/// A change from one length to another (mm): the difference of both as they are printed, so that
+/// the three figures agree beside each other. 0 where it is below half of the last digit. The pages
+/// follow the same rule (web/src/replay/corners.ts).
+inline double printed_change_mm(double from_mm, double to_mm) {
+  return std::abs(to_mm - from_mm) < 0.05 ? 0 : printed_mm(to_mm) - printed_mm(from_mm);
+}
+
 /// Two lengths in words, without unit.
 struct HeldAgainst {
   std::string own, limit;

@@ -48,21 +48,23 @@ Progress::~Progress() {
   if (active_) taken = false;
 }
 
+std::chrono::seconds Progress::wait_after(std::chrono::seconds since_start) {
+  using std::chrono::seconds;
+  return std::clamp(since_start, seconds(2), seconds(10));
+}
+
 void Progress::redraw_periodically() {
   using std::chrono::seconds;
-  constexpr seconds most{60}, lately{1};
+  constexpr seconds lately{1};
   std::unique_lock lock(mutex_);
   if (::isatty(2)) {
     while (!ended_.wait_for(lock, lately, [this] { return over_; }))
       if (Clock::now() - last_draw_ >= lately) draw(false);
     return;
   }
-  seconds wait{2};
-  for (Clock::time_point next = start_ + wait;
-       !ended_.wait_until(lock, next, [this] { return over_; }); next += wait) {
+  for (seconds at = wait_after({}); !ended_.wait_until(lock, start_ + at, [this] { return over_; });
+       at += wait_after(at))
     if (!shown_ || Clock::now() - last_draw_ >= lately) draw(false);
-    if (next - start_ > seconds(2)) wait = std::min(most, 2 * wait);
-  }
 }
 
 double Progress::seconds() const {

@@ -9,9 +9,9 @@
 namespace hyperex {
 
 /// A progress bar on standard error. On a terminal it redraws one line; elsewhere it prints a line
-/// after 1 s, others after 2, 4, 8 ... s (at least one per minute), and one at the end. The seconds
-/// go on even where the work does not report. Short work shows nothing. One bar at a time: work
-/// within or beside other work whose bar is shown has none until that is done.
+/// after 1 s, others after 2, 4, 8, 16 s and then every 10 s, and one at the end. The seconds go on
+/// even where the work does not report. Short work shows nothing. One bar at a time: work within or
+/// beside other work whose bar is shown has none until that is done.
 class Progress {
  public:
   /// `total` steps of work; 0: unknown.
@@ -22,6 +22,8 @@ class Progress {
   /// `done` steps are finished. Cheap: may be called on every step.
   void update(long done);
   double seconds() const;
+  /// Where there is no terminal: the time from the line at `since_start` to the next.
+  static std::chrono::seconds wait_after(std::chrono::seconds since_start);
   /// Shows no bars where `silent`, which is the default of every program.
   static void silence(bool silent);
 

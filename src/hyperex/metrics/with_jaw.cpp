@@ -20,4 +20,12 @@ double with_jaw_mm(const std::vector<Eigen::Isometry3d>& jaw_now_from_rest,
   return 1e3 * most_m;
 }
 
+std::vector<Eigen::Isometry3d> turned_about(std::vector<Eigen::Isometry3d> jaw_now_from_rest,
+                                            const Vec3& joint) {
+  if (jaw_now_from_rest.empty()) return jaw_now_from_rest;
+  const Vec3 first = jaw_now_from_rest[0] * joint;
+  for (Eigen::Isometry3d& pose : jaw_now_from_rest) pose.pretranslate(first - pose * joint);
+  return jaw_now_from_rest;
+}
+
 }  // namespace hyperex::metrics

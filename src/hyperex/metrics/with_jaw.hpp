@@ -15,4 +15,10 @@ namespace hyperex::metrics {
 double with_jaw_mm(const std::vector<Eigen::Isometry3d>& jaw_now_from_rest,
                    const motion::Motion& motion, int column);
 
+/// The same poses without what slides: each only turns about `joint` (m, at rest; the middle
+/// between both condyles), which stays where the first pose puts it. Poses are fitted to points of
+/// the chin, and skin that is drawn over the chin makes the joints of the fit slide.
+std::vector<Eigen::Isometry3d> turned_about(std::vector<Eigen::Isometry3d> jaw_now_from_rest,
+                                            const Vec3& joint);
+
 }  // namespace hyperex::metrics

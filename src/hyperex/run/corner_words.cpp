@@ -15,14 +15,43 @@ using Json = nlohmann::ordered_json;
 
 /// A change below half of the last digit printed counts as none.
 constexpr double kSame_mm = 0.05;
+/// A floor below this would be printed as 0.000, as that of points without any noise. It is none.
+constexpr double kNoFloor_mm = 0.0005;
 
 double corner_number(const Json& json, const std::string& key, double otherwise) {
   return json.contains(key) && json[key].is_number() ? json[key].get<double>() : otherwise;
 }
 
-/// Rounded as it is printed, so that a difference in words agrees with the printed figures.
-double rounded_mm(double mm) {
-  return std::round(10 * mm) / 10;
+/// What the error budget says of a corner of the mouth; null where it says nothing. `variant` is
+/// empty for base, `side` for the difference of both.
+const Json* budgeted(const Json& summary, const char* figure, const std::string& variant,
+                     const std::string& side) {
+  if (!summary.contains("error_budget")) return nullptr;
+  const Json& budget = summary["error_budget"];
+  if (!budget.contains("corners_of_the_mouth")) return nullptr;
+  for (const Json& one : budget["corners_of_the_mouth"])
+    if (one.value("figure", "") == figure && one.value("variant", "") == variant &&
+        one.value("side", "") == side && corner_number(one, "known_half_width_95_mm", -1) >= 0)
+      return &one;
+  return nullptr;
+}
+
+/// "95 %: +- 2.9", or "at least +- 1.4" where a part of the budget is not known.
+std::string budget_band(bool all_known, const std::string& half) {
+  return (all_known ? "95 %: +- " : "at least +- ") + half;
+}
+
+/// The corners' difference with the interval of the error budget.
+std::string difference_with_budget(const Json& figure, double shown_mm, double exact_mm) {
+  const bool known = figure.contains("half_width_95_mm") && figure["half_width_95_mm"].is_number();
+  const HeldAgainst apart =
+      held_against(shown_mm, exact_mm, figure["known_half_width_95_mm"].get<double>());
+  const std::string part = figure.value("largest_part", "");
+  const std::string words = fmt::format("{} mm ({}{})", apart.own, budget_band(known, apart.limit),
+                                        part.empty() ? "" : "; mostly " + part);
+  if (!figure.contains("decided") || figure["decided"].is_null())
+    return words + ": cannot tell, as the recording's jitter is not known";
+  return figure["decided"].get<bool>() ? words : words + ": undecided";
 }
 
 /// What the corners' difference is, whether it counts, and what most of the floor comes from.
@@ -30,7 +59,8 @@ std::string difference_words(const Json& corners, double shown_mm, double exact_
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
   const std::string cannot_tell = "the recording cannot tell, as its jitter is not known";
-  if (floor_mm <= 0) return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
+  if (floor_mm < kNoFloor_mm)
+    return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
   const HeldAgainst apart = held_against(shown_mm, exact_mm, floor_mm);
   return fmt::format(
       "{} mm: {} the floor of {} mm ({}){}", apart.own,
@@ -42,7 +72,8 @@ std::string difference_words(const Json& corners, double shown_mm, double exact_
 struct CornerChange {
   double from_mm, to_mm, band_mm;
   double decided;     ///< whether the change from rest exceeds its band, 1 or 0
-  bool jitter_known;  ///< else the band is not
+  bool jitter_known;  ///< else the band is not, or it is a lower bound where it is of the budget
+  bool budgeted;      ///< the band is that of the error budget
   double along_mm;    ///< in the unchanged direction
   double along_band_mm, along_decided;
   double far_mm, far_s;
@@ -64,11 +95,12 @@ std::string path_clause(const CornerChange& c, double by_mm) {
                      c.far_mm, c.far_s);
 }
 
-/// The change in the unchanged direction with its own band: "5.9 mm less (+- 0.8)".
+/// The change in the unchanged direction with its own band: "5.9 mm less (+- 0.8)". The error
+/// budget has no interval for it, and a band that leaves most errors out would look like one.
 std::string along_words(const CornerChange& c) {
-  const double by = rounded_mm(c.along_mm) - rounded_mm(c.from_mm), exact = c.along_mm - c.from_mm;
-  if (std::abs(by) < kSame_mm || std::abs(exact) < kSame_mm) return "unchanged";
-  const bool known = !std::isnan(c.along_band_mm);
+  const double by = printed_change_mm(c.from_mm, c.along_mm), exact = c.along_mm - c.from_mm;
+  if (std::abs(by) < kSame_mm) return "unchanged";
+  const bool known = !std::isnan(c.along_band_mm) && !c.budgeted;
   const HeldAgainst held = held_against(by, exact, known ? c.along_band_mm : 0);
   const bool undecided = std::abs(exact) < c.along_band_mm || c.along_decided == 0;
   return fmt::format("{}{} mm {}{}{}", undecided ? "undecided: " : "", held.own,
@@ -82,7 +114,7 @@ std::string direction_clause(const CornerChange& c) {
   if (std::isnan(c.along_mm)) return "";
   const bool same_way = std::abs(c.to_mm - c.along_mm) <= std::max(0.25, 0.1 * c.to_mm);
   if (same_way) return "";
-  const double from = rounded_mm(c.from_mm), along = rounded_mm(c.along_mm);
+  const double from = printed_mm(c.from_mm), along = printed_mm(c.along_mm);
   if (along < 0)
     return fmt::format(", {:.1f} mm against the unchanged direction, {}", -along, along_words(c));
   return fmt::format(", in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along,
@@ -91,17 +123,20 @@ std::string direction_clause(const CornerChange& c) {
 
 /// The change of the distance from rest with its own band, then what that distance hides.
 std::string change_words(const CornerChange& c) {
-  const double from = rounded_mm(c.from_mm), to = rounded_mm(c.to_mm);
-  const double by = to - from, exact = c.to_mm - c.from_mm;
+  const double from = printed_mm(c.from_mm), to = printed_mm(c.to_mm);
+  const double by = printed_change_mm(c.from_mm, c.to_mm), exact = c.to_mm - c.from_mm;
   const std::string aside = direction_clause(c),
                     hidden = aside.empty() ? path_clause(c, by) : aside;
-  if (std::abs(by) < kSame_mm || std::abs(exact) < kSame_mm)
+  if (std::abs(by) < kSame_mm)
     return fmt::format("{:.1f} mm, {}", from, aside.empty() ? "unchanged" : "as far as before") +
            hidden;
   const bool known = !std::isnan(c.band_mm);
   const HeldAgainst held = held_against(by, exact, known ? c.band_mm : 0);
   const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to),
-                    band = known ? fmt::format(" (+- {})", held.limit) : "";
+                    band = !known ? ""
+                           : c.budgeted
+                               ? fmt::format(" ({})", budget_band(c.jitter_known, held.limit))
+                               : fmt::format(" (+- {})", held.limit);
   if (std::abs(exact) < c.band_mm || c.decided == 0)
     return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + band +
            hidden;
@@ -110,63 +145,92 @@ std::string change_words(const CornerChange& c) {
   return way + moved_words(by, held.own, c.weaker) + band + cannot_tell + hidden;
 }
 
+/// Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not
+/// known.
+std::string jaw_sentence(const Json& variant, const std::string& side) {
+  const std::string corner = "commissure_" + side;
+  const double jaw_mm = corner_number(variant, corner + "_with_jaw_mm", 0),
+               turned_mm = corner_number(variant, corner + "_with_turned_jaw_mm", std::nan(""));
+  if (!(jaw_mm >= kSame_mm)) return "";
+  return fmt::format(
+      "; fixed to the lower jaw it would go {:.1f} mm{}, and skin follows the jaw in part", jaw_mm,
+      std::isnan(turned_mm)
+          ? ""
+          : fmt::format(" ({:.1f} mm if the jaw only turned about its joints)", turned_mm));
+}
+
 /// Why a corner on a side of which no muscle pulls still moves, a line for each such side.
 std::string unpulled_lines(const Json& variant) {
   std::string lines;
   for (const Json& side : variant.value("unpulled_sides", Json::array())) {
     const auto letter = side.get<std::string>();
-    const double jaw_mm = corner_number(variant, "commissure_" + letter + "_with_jaw_mm", 0);
     lines += fmt::format(
-        "    no muscle pulls on the {}: what motion is left there comes from the jaw{}, the other "
-        "side, and forces that no muscle explains\n",
-        letter == "R" ? "right" : "left",
-        !(jaw_mm >= kSame_mm)
-            ? ""
-            : fmt::format(" (fixed to it, the corner would go {:.1f} mm)", jaw_mm));
+        "    no muscle pulls on the {}: its corner moves by no strength of its own, but by the "
+        "jaw, "
+        "the other side, and forces that no muscle explains{}\n",
+        letter == "R" ? "right" : "left", jaw_sentence(variant, letter));
   }
   return lines;
 }
 
-std::string side_words(const Json& base, const Json& variant, const std::string& side) {
+/// The interval of the error budget in place of the band, which leaves most errors out.
+void take_budget(const Json* figure, CornerChange& c) {
+  if (!figure) return;
+  c.budgeted = true;
+  c.band_mm = (*figure)["known_half_width_95_mm"].get<double>();
+  c.jitter_known =
+      figure->contains("half_width_95_mm") && (*figure)["half_width_95_mm"].is_number();
+  const Json decided = figure->value("decided", Json());
+  c.decided = decided.is_boolean() ? double(decided.get<bool>()) : std::nan("");
+}
+
+std::string side_words(const Json& summary, const Json& variant, const std::string& side) {
+  const Json& base = summary["variants"]["table"][0];
   const double unknown = std::nan("");
   const std::string corner = "commissure_" + side;
   const auto number = [&](const Json& row, const char* what) {
     return corner_number(row, corner + what, unknown);
   };
   const Json weaker = variant.value("weaker_sides", Json::array());
-  const CornerChange c{number(base, "_mm"),
-                       number(variant, "_mm"),
-                       number(variant, "_band_mm"),
-                       number(variant, "_decided"),
-                       variant.value("jitter_known", true),
-                       number(variant, "_along_base_mm"),
-                       number(variant, "_along_base_band_mm"),
-                       number(variant, "_along_base_decided"),
-                       number(variant, "_from_base_mm"),
-                       number(variant, "_from_base_s"),
-                       std::find(weaker.begin(), weaker.end(), Json(side)) != weaker.end()};
+  CornerChange c{number(base, "_mm"),
+                 number(variant, "_mm"),
+                 number(variant, "_band_mm"),
+                 number(variant, "_decided"),
+                 variant.value("jitter_known", true),
+                 false,
+                 number(variant, "_along_base_mm"),
+                 number(variant, "_along_base_band_mm"),
+                 number(variant, "_along_base_decided"),
+                 number(variant, "_from_base_mm"),
+                 number(variant, "_from_base_s"),
+                 std::find(weaker.begin(), weaker.end(), Json(side)) != weaker.end()};
+  take_budget(budgeted(summary, "change", variant.value("name", ""), side), c);
   return std::isnan(c.from_mm) || std::isnan(c.to_mm) ? "not known" : change_words(c);
 }
 
-std::string line_of(const Json& corners) {
+std::string line_of(const Json& corners, const Json* budget) {
   if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
+  const double shown = std::abs(printed_mm(left) - printed_mm(right)),
+               exact = std::abs(left - right);
   return fmt::format("corners of the mouth: right {:.1f} mm, left {:.1f} mm, a difference of {}\n",
-                     rounded_mm(right), rounded_mm(left),
-                     difference_words(corners, std::abs(rounded_mm(left) - rounded_mm(right)),
-                                      std::abs(left - right)));
+                     printed_mm(right), printed_mm(left),
+                     budget ? difference_with_budget(*budget, shown, exact)
+                            : difference_words(corners, shown, exact));
 }
 
 }  // namespace
 
 std::string corners_line(const Json& summary) {
   const auto& symmetry = summary["symmetry"];
-  return symmetry.contains("commissure") ? line_of(symmetry["commissure"]) : "";
+  return symmetry.contains("commissure")
+             ? line_of(symmetry["commissure"], budgeted(summary, "difference", "", ""))
+             : "";
 }
 
 std::string corners_line(const metrics::Excursions& excursions) {
   const Json corners = metrics::commissure_json(excursions);
-  return corners.is_null() ? "" : line_of(corners);
+  return corners.is_null() ? "" : line_of(corners, nullptr);
 }
 
 std::string rescaled_line(const Json& summary) {
@@ -182,18 +246,22 @@ std::string variant_lines(const Json& summary) {
   const auto& table = summary["variants"]["table"];
   for (std::size_t i = 1; i < table.size(); ++i) {
     lines += fmt::format("  {}: corner of the mouth right {}; left {}\n",
-                         table[i]["name"].get<std::string>(), side_words(table[0], table[i], "R"),
-                         side_words(table[0], table[i], "L"));
+                         table[i]["name"].get<std::string>(), side_words(summary, table[i], "R"),
+                         side_words(summary, table[i], "L"));
     lines += unpulled_lines(table[i]);
   }
   if (lines.empty()) return lines;
-  const bool aside = lines.find("unchanged direction") != std::string::npos;
+  const bool aside = lines.find("unchanged direction") != std::string::npos,
+             budget = summary.contains("error_budget");
   return lines +
-         "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: "
-         "what one other mesh and 95 % of the recording's jitter could make of the change before "
-         "it; --error-budget states all that could)\n" +
-         (aside ? "  (the unchanged direction: where the corner goes without the change; motion "
-                  "aside of it counts in the distance, not in it)\n"
+         "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: " +
+         (budget ? "what all errors of the error budget together could make of the change before "
+                   "it)\n"
+                 : "what one other mesh and 95 % of the recording's jitter could make of the "
+                   "change before it; --error-budget states all that could)\n") +
+         (aside ? std::string("  (the unchanged direction: where the corner goes without the "
+                              "change; motion aside of it counts in the distance, not in it") +
+                      (budget ? "; the error budget has no interval for it)\n" : ")\n")
                 : "");
 }
 

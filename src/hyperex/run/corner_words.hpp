@@ -12,7 +12,9 @@ namespace hyperex::run {
 
 /// One line: "corners of the mouth: right 12.7 mm, left 3.8 mm, a difference of 8.9 mm: more than
 /// the floor of 0.1 mm (mesh)"; empty if the corners are not known. Where the recording's jitter is
-/// not known, the line says so instead of letting the difference pass for decided.
+/// not known, the line says so instead of letting the difference pass for decided. Where the
+/// summary has an error budget, its interval stands in place of the floor: "a difference of 8.9 mm
+/// (95 %: +- 0.8; mostly jitter)".
 std::string corners_line(const nlohmann::ordered_json& summary);
 /// The same of a recording that was not simulated.
 std::string corners_line(const metrics::Excursions& excursions);
@@ -26,8 +28,9 @@ std::string rescaled_line(const nlohmann::ordered_json& summary);
 /// Compared are greatest distances from rest, as in variants_excursions.csv, with their band. A
 /// corner that turns aside has a second clause with its component in the unchanged direction, that
 /// of its displacement in base: ", in the unchanged direction 9.6 to 4.1 mm, 5.5 mm less (+- 0.4)",
-/// with the band of that change. A line of its own says why a corner still moves where a variant
-/// lets no muscle of its side pull.
+/// with the band of that change. Where the summary has an error budget, its interval stands in
+/// place of the band, "(95 %: +- 2.9)", and the change in the unchanged direction has none. A line
+/// of its own says why a corner still moves where a variant lets no muscle of its side pull.
 std::string variant_lines(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

@@ -126,8 +126,13 @@ render::SheetPicture view_of(const View& view, const Drawn& drawn) {
   return {canvas.image(), view.caption, render::side_marks(camera)};
 }
 
+/// As it is printed: what rounds to 0 has no sign.
+double to_hundredths(double activation) {
+  return std::round(100 * activation) / 100 + 0.0;
+}
+
 std::string shown(double activation) {
-  return std::isnan(activation) ? "-" : fmt::format("{:.2f}", activation);
+  return std::isnan(activation) ? "-" : fmt::format("{:.2f}", to_hundredths(activation));
 }
 
 render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int height_px) {
@@ -139,6 +144,7 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
       known{.size_px = 12, .align = render::Align::right, .bold = true},
       unknown{.size_px = 12, .colour = render::palette::faint_ink, .align = render::Align::right},
       faint{.size_px = 11, .colour = render::palette::faint_ink};
+  bool relaxes = false;
   canvas.text(wide - 60, 14, "right", head);
   canvas.text(wide - 10, 14, "left", head);
   for (std::size_t m = 0; m < all.size(); ++m) {
@@ -149,9 +155,13 @@ render::Image legend(const muscles::MuscleTable& all, const AtPeak& peak, int he
       const std::string name = all[m].name + side;
       canvas.text(x, y, shown(peak.activation(name)), peak.known(name) ? known : unknown);
       if (peak.mostly_prior(name)) canvas.text(x + 1, y, "*", faint);
+      relaxes |= to_hundredths(peak.activation(name)) < 0;
     }
   }
-  canvas.text(left - 6, height_px - 28, fmt::format("* {}", simulate::kMostlyPriorWords), faint);
+  canvas.text(left - 6, height_px - 28,
+              fmt::format("* {}{}", simulate::kMostlyPriorWords,
+                          relaxes ? "; below 0: more relaxed than at rest" : ""),
+              faint);
   double x = left - 6;
   for (const char* branch : kBranches) {
     canvas.rectangle(x, height_px - 20, 10, 10, colour_of(branch));

@@ -119,7 +119,7 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   summary["notes"] = texts_of(results.notes);
   summary["warnings"] = texts_of(results.notes, Severity::warning);
   summary["remarks"] = session::remarks_json(results.notes);
-  summary["options"] = scene::echoed_options(results.scene);
+  summary["options"] = options_in_use(results.scene, results.inputs);
   if (results.scene.output.report) {
     write_report(results, session.variants(), summary, directory);
     summary["seconds"]["export"] = seconds["export"].get<double>() + stage.lap();

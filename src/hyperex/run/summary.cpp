@@ -13,6 +13,8 @@
 #include "hyperex/metrics/symmetry_json.hpp"
 #include "hyperex/metrics/variant_difference.hpp"
 #include "hyperex/run/activations.hpp"
+#include "hyperex/scene/file_names.hpp"
+#include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/plausible.hpp"
 
@@ -150,6 +152,14 @@ Json summary_of(const session::FaceSession& session, const Results& r) {
   if (!p.muscles.names.empty()) s["muscles"] = activations_json(p.muscles, p.driven_names.size());
   if (r.tissue) s["tissue"] = tissue_json(*r.tissue);
   return s;
+}
+
+Json options_in_use(const scene::Scene& scene, const session::Inputs& inputs) {
+  Json options = scene::echoed_options(scene);
+  if (session::drives_by_default(scene) && options.contains("drive") &&
+      options["drive"].contains("points"))
+    options["drive"]["points"] = inputs.driven;
+  return options;
 }
 
 }  // namespace hyperex::run

@@ -5,6 +5,7 @@
 
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
@@ -15,6 +16,7 @@
 #include "hyperex/run/surgery.hpp"
 #include "hyperex/run/variants_picture.hpp"
 #include "hyperex/scene/file_names.hpp"
+#include "hyperex/simulate/drive/jaw.hpp"
 #include "hyperex/simulate/load/held_load.hpp"
 
 namespace hyperex::run {
@@ -103,14 +105,18 @@ Compared compared_with(const Results& base, const std::vector<VariantRun>& runs)
   return out;
 }
 
-/// Adds how far the corners of the mouth would go if they were fixed to the jaw.
-void add_jaw_part(const VariantRun& run, Json& row) {
+/// Adds how far the corners of the mouth would go if they were fixed to the jaw, and if that only
+/// turned about its joints.
+void add_jaw_part(const Results& base, const VariantRun& run, Json& row) {
   const simulate::Performance& p = run.simulation.performance;
   const metrics::Commissure& corners = run.symmetry.excursions.commissure;
-  row["commissure_R_with_jaw_mm"] =
-      metrics::with_jaw_mm(p.jaw_now_from_rest, p.landmarks, corners.right);
-  row["commissure_L_with_jaw_mm"] =
-      metrics::with_jaw_mm(p.jaw_now_from_rest, p.landmarks, corners.left);
+  const simulate::JawHinge hinge(base.inputs.landmarks, base.mesh.bones.get());
+  const auto turned = metrics::turned_about(p.jaw_now_from_rest, hinge.centre);
+  for (const auto& [side, column] : {std::pair{"R", corners.right}, {"L", corners.left}}) {
+    const std::string corner = std::string("commissure_") + side;
+    row[corner + "_with_jaw_mm"] = metrics::with_jaw_mm(p.jaw_now_from_rest, p.landmarks, column);
+    row[corner + "_with_turned_jaw_mm"] = metrics::with_jaw_mm(turned, p.landmarks, column);
+  }
 }
 
 Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Compared& compared) {
@@ -122,7 +128,7 @@ Json table_of(const Results& base, const std::vector<VariantRun>& runs, const Co
     const Pulls pulls(base, runs[i]);
     one["weaker_sides"] = weaker_sides(pulls);
     one["unpulled_sides"] = unpulled_sides(pulls);
-    add_jaw_part(runs[i], one);
+    add_jaw_part(base, runs[i], one);
     one["lip_overlap_mm"] = runs[i].simulation.report.lip_overlap_mm;
     one["inverted_tets"] = runs[i].simulation.report.inverted_tets;
     one["excursions"] = metrics::summary_of(runs[i].symmetry).at("excursions");

@@ -159,7 +159,9 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   cost.frames = std::max(1.0, std::ceil(end_s * scene.time.frame_rate_hz - 1e-6));
   cost.variants = double(scene.variants.size());
   cost.from_s = scene.motion.start_s;
-  const double shown_s = (lasts_s > 0 ? std::min(end_s, lasts_s) : end_s) / scene.motion.time_scale;
+  const double last_frame_s = (cost.frames - 1) / scene.time.frame_rate_hz,
+               shown_s = (lasts_s > 0 ? std::min(last_frame_s, lasts_s) : last_frame_s) /
+                         scene.motion.time_scale;
   cost.to_s = cost.from_s + std::max(0.0, shown_s - inputs.lead_s);
   cost.lead_s = inputs.lead_s;
   const double faces = 1 + cost.variants;

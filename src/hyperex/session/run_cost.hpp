@@ -13,10 +13,12 @@ namespace hyperex::session {
 
 /// The expected cost of a run with all its outputs.
 struct RunCost {
-  double frames = 0;                          ///< of each face
-  double nodes = 0;                           ///< of the mesh
-  double variants = 0;                        ///< besides base
-  double from_s = 0, to_s = 0;                ///< what is run of the recording, from its start
+  double frames = 0;    ///< of each face
+  double nodes = 0;     ///< of the mesh
+  double variants = 0;  ///< besides base
+  /// Of the first and the last frame in the recording, from its start. The end of the run itself
+  /// makes no frame: of 1 s at 30 Hz the last one is at 0.967 s.
+  double from_s = 0, to_s = 0;
   double lead_s = 0;                          ///< before from_s, in which the face is led from rest
   double disk_bytes = 0, frames_bytes = 0;    ///< in all; of them frames/, for ParaView
   double memory_bytes = 0, motion_bytes = 0;  ///< in all; of them the motion of all faces
@@ -35,7 +37,7 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
 /// The same of a new scene, without tracking a face. Throws InputError where its files are wrong.
 std::optional<RunCost> cost_before_tracking(const scene::Scene& scene);
 
-/// "a run: 1201 frames, from 0 s to 40 s of the recording; about 0.97 GB on disk (frames/, for
+/// "a run: 1200 frames, from 0 s to 39.97 s of the recording; about 0.97 GB on disk (frames/, for
 /// ParaView: 0.94 GB), ..."
 std::string sentence_of(const RunCost& cost);
 

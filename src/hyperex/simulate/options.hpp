@@ -517,9 +517,11 @@ struct TimeOptions {
              "When the simulation ends, counted from its start and not from the recording's; after "
              "the recording its last sample is kept. 0: at the end of the recording.",
              {.unit = kSeconds, .bounds = {0, 600}});
-    v.option(HX_MEMBER(frame_rate_hz),
-             "Frames written per second. They need not coincide with time steps.",
-             {.unit = kHertz, .bounds = {1, 1000}});
+    v.option(
+        HX_MEMBER(frame_rate_hz),
+        "Frames written per second, from 0 on and before the end: a run of 1 s at 30 Hz has 30, "
+        "the last at 0.967 s. They need not coincide with time steps.",
+        {.unit = kHertz, .bounds = {1, 1000}});
     v.option(HX_MEMBER(peak_time_s),
              "Time of skin_peak.ply. Below 0: when the mean displacement of the driven points is "
              "greatest.",

@@ -10,6 +10,7 @@
 #include <optional>
 
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/held_against.hpp"
 #include "hyperex/io/csv_cells.hpp"
 
 namespace hyperex::uncertainty {
@@ -75,6 +76,7 @@ Json json_of(const BudgetedFigure& figure) {
   json["figure"] = name_of(figure.kind);
   if (figure.side) json["side"] = side_of(figure);
   json["value_mm"] = figure.value_mm;
+  json["shown_mm"] = figure.shown_mm();
   json["half_width_95_mm"] = figure.half_width_95_mm();
   json["known_half_width_95_mm"] = figure.known_half_width_95_mm();
   if (figure.kind != FigureKind::excursion)
@@ -88,19 +90,21 @@ Json json_of(const BudgetedFigure& figure) {
 
 /// Without the sign of a zero.
 std::string rounded_mm(double mm) {
-  return fmt::format("{:.1f}", std::round(10 * mm) / 10 + 0.0);
+  return fmt::format("{:.1f}", printed_mm(mm) + 0.0);
 }
 
 /// "-3.2 mm (95 %: -4.6 to -1.8; mostly muscles)", or "-3.2 mm (at least +- 1.4; mostly muscles),
-/// cannot tell" where the jitter is not known.
+/// cannot tell" where the jitter is not known. The value agrees with the printed excursions. The
+/// ends are those of the exact interval, and contain the value as it is printed.
 std::string interval_words(const BudgetedFigure& figure) {
-  const double half = figure.known_half_width_95_mm();
+  const double half = figure.known_half_width_95_mm(), shown = figure.shown_mm();
+  const double low = std::min(figure.value_mm - half, shown),
+               high = std::max(figure.value_mm + half, shown);
   const std::string interval =
-      figure.jitter_known ? fmt::format("95 %: {} to {}", rounded_mm(figure.value_mm - half),
-                                        rounded_mm(figure.value_mm + half))
+      figure.jitter_known ? fmt::format("95 %: {} to {}", rounded_mm(low), rounded_mm(high))
                           : fmt::format("at least +- {}", rounded_mm(half));
   const std::string part = largest_known_part(figure);
-  const std::string words = fmt::format("{} mm ({}{})", rounded_mm(figure.value_mm), interval,
+  const std::string words = fmt::format("{} mm ({}{})", rounded_mm(shown), interval,
                                         part.empty() ? "" : "; mostly " + part);
   if (figure.kind == FigureKind::excursion) return words;
   const std::optional<bool> decided = figure.decided();

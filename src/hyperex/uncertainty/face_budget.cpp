@@ -81,6 +81,18 @@ double value_of(const Place& place, const FaceExcursions& faces) {
          excursion(base, place.side);
 }
 
+/// The two excursions that a difference or a change is made of.
+void add_ends(const Place& place, const FaceExcursions& faces, BudgetedFigure& figure) {
+  const PairExcursion base = pair_named(faces.front(), place.point);
+  if (place.kind == FigureKind::difference) {
+    figure.from_mm = excursion(base, 'R');
+    figure.to_mm = excursion(base, 'L');
+  } else if (place.kind == FigureKind::change) {
+    figure.from_mm = excursion(base, place.side);
+    figure.to_mm = excursion(pair_named(faces.at(place.face), place.point), place.side);
+  }
+}
+
 std::vector<Place> places_of(const FaceExcursions& faces) {
   std::vector<Place> out;
   for (std::size_t face = 0; face < faces.size(); ++face)
@@ -255,6 +267,7 @@ FaceBudget face_budget(const session::FaceSession& session, const simulate::RunC
         out.jitter_known};
     add_recording(pair_named(own.front(), place.point), place, figure.value_mm, figure.errors);
     add_inversion(scene, place, figure.value_mm, figure.errors);
+    add_ends(place, own, figure);
     out.figures.push_back(std::move(figure));
   }
   return out;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "hyperex/core/held_against.hpp"
 #include "hyperex/metrics/error_budget.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -38,7 +39,17 @@ struct BudgetedFigure {
   double value_mm = 0;
   metrics::ErrorBudget errors;  ///< without the jitter's part where that is not known
   bool jitter_known = true;     ///< 0 may be known
+  /// Of a change, the excursions in base and in the variant; of a difference, those of the right
+  /// and of the left side. Else NaN.
+  double from_mm = std::numeric_limits<double>::quiet_NaN();
+  double to_mm = std::numeric_limits<double>::quiet_NaN();
 
+  /// The value as it is printed: a change or a difference agrees with both printed excursions.
+  double shown_mm() const {
+    if (std::isnan(from_mm) || std::isnan(to_mm)) return printed_mm(value_mm);
+    return kind == FigureKind::change ? printed_change_mm(from_mm, to_mm)
+                                      : printed_mm(to_mm) - printed_mm(from_mm);
+  }
   /// NaN where the jitter is not known: the interval is wider than what is known makes it.
   double half_width_95_mm() const {
     return jitter_known ? known_half_width_95_mm() : std::numeric_limits<double>::quiet_NaN();

@@ -28,6 +28,14 @@ TEST(HeldAgainst, ALimitIsNotPrintedAsNone) {
   expect_words(held_against(1.0, 1.0, 0), "1.0", "0.0");
 }
 
+// 10.052 and 5.947 are printed as 10.1 and 5.9; the exact difference would be printed as 4.1.
+TEST(PrintedChange, IsTheDifferenceOfThePrintedLengths) {
+  EXPECT_NEAR(printed_change_mm(10.052, 5.947), -4.2, 1e-12);
+  EXPECT_NEAR(printed_change_mm(8.26, 6.24), -2.1, 1e-12);
+  EXPECT_EQ(printed_change_mm(9.64, 9.66), 0) << "less than half of the last digit";
+  EXPECT_DOUBLE_EQ(printed_mm(10.052), 10.1);
+}
+
 TEST(HeldAgainst, EqualOnesAreThreeDecimalsAtMost) {
   expect_words(held_against(0.4, 0.4, 0.4), "0.400", "0.400");
 }

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <thread>
+#include <vector>
 
 namespace hyperex {
 namespace {
@@ -108,6 +109,15 @@ TEST(Progress, OneLongCallThatReportsNothingIsTellingUnderWay) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;  // at 2 s, at 4 s, at the end
   EXPECT_THAT(text, ::testing::HasSubstr("...    2.0 s"));
   EXPECT_THAT(text, ::testing::HasSubstr("...    4.0 s"));
+}
+
+// A minute without a line looks like a program that hangs.
+TEST(Progress, WithoutATerminalALineFollowsWithinTenSeconds) {
+  using std::chrono::seconds;
+  std::vector<long> at;
+  for (seconds t = Progress::wait_after({}); t < seconds(60); t += Progress::wait_after(t))
+    at.push_back(t.count());
+  EXPECT_THAT(at, ::testing::ElementsAre(2, 4, 8, 16, 26, 36, 46, 56));
 }
 
 TEST(Progress, LongWorkThatReportsIsToldNowAndThen) {

@@ -118,13 +118,19 @@ TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
   Json& changed = summary["variants"]["table"][1];
   changed["unpulled_sides"] = Json::array({"R"});
   changed["commissure_R_with_jaw_mm"] = 5.04;
-  EXPECT_THAT(variant_lines(summary),
-              HasSubstr("\n    no muscle pulls on the right: what motion is left there comes from "
-                        "the jaw (fixed to it, the corner would go 5.0 mm), the other side, and "
-                        "forces that no muscle explains\n"));
+  EXPECT_THAT(
+      variant_lines(summary),
+      HasSubstr("\n    no muscle pulls on the right: its corner moves by no strength of its "
+                "own, but by the jaw, the other side, and forces that no muscle explains; "
+                "fixed to the lower jaw it would go 5.0 mm, and skin follows the jaw in "
+                "part\n"));
+  changed["commissure_R_with_turned_jaw_mm"] = 3.16;
+  EXPECT_THAT(
+      variant_lines(summary),
+      HasSubstr("it would go 5.0 mm (3.2 mm if the jaw only turned about its joints), and"));
   for (const Json& unknown : {Json(), Json(std::nan(""))}) {
     changed["commissure_R_with_jaw_mm"] = unknown;
-    EXPECT_THAT(variant_lines(summary), HasSubstr("comes from the jaw, the other side, and"));
+    EXPECT_THAT(variant_lines(summary), HasSubstr("forces that no muscle explains\n"));
   }
 }
 
@@ -149,6 +155,64 @@ TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
   EXPECT_THAT(variant_lines(summary),
               HasSubstr("left 10.0 to 10.1 mm, moves 0.12 mm farther (+- 0.05), but up to 0.5 mm "
                         "from its place without the change, at 1.20 s\n"));
+}
+
+/// The corners' figures of an error budget: the left one's change and the difference of both.
+Json budget_with(const Json& half_mm, double known_half_mm, const Json& decided) {
+  const Json change{{"variant", "what if"},
+                    {"figure", "change"},
+                    {"side", "L"},
+                    {"value_mm", -4.105},
+                    {"half_width_95_mm", half_mm},
+                    {"known_half_width_95_mm", known_half_mm},
+                    {"decided", decided},
+                    {"largest_part", "muscles"}};
+  Json difference = change;
+  difference.erase("variant");
+  difference.erase("side");
+  difference["figure"] = "difference";
+  return {{"corners_of_the_mouth", Json::array({difference, change})}};
+}
+
+// The band is of one other mesh and the jitter. Beside the budget's interval it would look decided.
+TEST(CornerWords, TheIntervalOfTheErrorBudgetStandsInPlaceOfTheBand) {
+  Json summary = summary_of(same, {10.052, 5.947, 5.947, 0.4}, {"L"});
+  EXPECT_THAT(variant_lines(summary), HasSubstr("moves 4.2 mm less (+- 0.4)\n"));
+  summary["error_budget"] = budget_with(2.868, 2.868, true);
+  EXPECT_THAT(variant_lines(summary),
+              AllOf(HasSubstr("left 10.1 to 5.9 mm, moves 4.2 mm less (95 %: +- 2.9)\n"),
+                    HasSubstr("+-: what all errors of the error budget together could make"),
+                    Not(HasSubstr("--error-budget"))));
+  summary["error_budget"] = budget_with(4.868, 4.868, false);
+  EXPECT_THAT(variant_lines(summary), HasSubstr("undecided: 4.2 mm less (95 %: +- 4.9)\n"));
+  summary["error_budget"] = budget_with(nullptr, 1.4, nullptr);
+  EXPECT_THAT(variant_lines(summary),
+              HasSubstr("moves 4.2 mm less (at least +- 1.4) (cannot tell: the recording's jitter "
+                        "is not known)\n"));
+}
+
+TEST(CornerWords, TheErrorBudgetHasNoIntervalInTheUnchangedDirection) {
+  Json summary = summary_of(same, {10.052, 5.947, 3.707, 0.4}, {"L"});
+  summary["variants"]["table"][1]["commissure_L_along_base_band_mm"] = 0.8;
+  EXPECT_THAT(variant_lines(summary), HasSubstr("10.1 to 3.7 mm, 6.4 mm less (+- 0.8)\n"));
+  summary["error_budget"] = budget_with(2.868, 2.868, true);
+  EXPECT_THAT(variant_lines(summary),
+              AllOf(HasSubstr("(95 %: +- 2.9), in the unchanged direction 10.1 to 3.7 mm, 6.4 mm "
+                              "less\n"),
+                    HasSubstr("not in it; the error budget has no interval for it)")));
+}
+
+TEST(CornerWords, TheIntervalOfTheErrorBudgetStandsInPlaceOfTheFloor) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.04, 7.0, 7.0}, Json::array());
+  summary["error_budget"] = budget_with(0.84, 0.84, true);
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("a difference of 1.0 mm (95 %: +- 0.8; mostly muscles)\n"));
+  summary["error_budget"] = budget_with(1.84, 1.84, false);
+  EXPECT_THAT(corners_line(summary), HasSubstr("(95 %: +- 1.8; mostly muscles): undecided\n"));
+  summary["error_budget"] = budget_with(nullptr, 0.5, nullptr);
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("(at least +- 0.5; mostly muscles): cannot tell, as the recording's jitter "
+                        "is not known\n"));
 }
 
 // 9.64 and 9.66 would be 9.6 and 9.7 if each were rounded separately.
@@ -190,6 +254,19 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
               HasSubstr("a difference of 1.0 mm: more than the floor of 0.1 mm (mesh), but the "
                         "recording cannot tell, as its jitter is not known\n"));
   corners["floor_mm"] = nullptr;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("a difference of 1.0 mm: the recording cannot tell, as its jitter is not "
+                        "known\n"));
+}
+
+// What rounding leaves of the pose's floor, where no point has noise.
+TEST(CornerWords, AFloorThatWouldBePrintedAsZeroIsNone) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["floor_mm"] = 1.4e-14;
+  corners["largest_part"] = "head pose";
+  EXPECT_THAT(corners_line(summary), HasSubstr("a difference of 1.0 mm\n"));
+  corners["undecided"] = nullptr;
   EXPECT_THAT(corners_line(summary),
               HasSubstr("a difference of 1.0 mm: the recording cannot tell, as its jitter is not "
                         "known\n"));

@@ -116,6 +116,27 @@ TEST(MusclePicture, AStarInTheListMarksWhatThePriorChose) {
   EXPECT_LT(list, 400) << "two stars";
 }
 
+/// -0.001 is printed as 0.00, and -0.3 with a line below the list that says what it means.
+TEST(MusclePicture, SaysWhatAnActivationBelowZeroMeans) {
+  const muscles::test::AFace& face = muscles::test::a_face();
+  const auto draw = [&](double right) {  // 0.5: all are pale alike
+    return draw_muscles(face.mesh, face.landmarks, course(0.9, right, 0.5));
+  };
+  const render::Image none = draw(0), rounded = draw(-0.001), relaxed = draw(-0.3);
+  ASSERT_EQ(none.height, relaxed.height);
+  int first = none.height, last = -1;
+  bool same = true;
+  for (int y = 0; y < none.height; ++y)
+    for (int x = 0; x < none.width; ++x) {
+      same &= std::equal(none.pixel(x, y), none.pixel(x, y) + 3, rounded.pixel(x, y));
+      if (std::equal(none.pixel(x, y), none.pixel(x, y) + 3, relaxed.pixel(x, y))) continue;
+      first = std::min(first, y);
+      last = std::max(last, y);
+    }
+  EXPECT_TRUE(same);
+  EXPECT_GT(last - first, 100) << "the figure in its row, and the line below the list";
+}
+
 TEST(MusclePicture, HasADiscForEachMuscle) {
   const muscles::test::AFace& face = muscles::test::a_face();
   const render::Image image = draw_muscles(face.mesh, face.landmarks, course(0, 0));

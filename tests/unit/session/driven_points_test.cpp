@@ -60,6 +60,16 @@ TEST(DrivenPoints, PartsThatMoveJoin) {
   EXPECT_THAT(ids(scene, moving(37, 3e-3)), testing::ElementsAre("drive.parts_joined"));
 }
 
+TEST(DrivenPoints, PartsThatJoinAreSaidWithHowFarTheyMove) {
+  motion::Motion m = moving(19, 2.84e-3);
+  m.positions[1](31, 1) = 6.3e-3;
+  std::vector<Note> notes;
+  note_left_out_points(scene::Scene(), m, notes);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].text,
+            "driven in addition to the mouth, since they move: brows (2.8 mm), nostrils (6.3 mm)");
+}
+
 TEST(DrivenPoints, TheOutlineOfTheFaceIsSaidAndNotDriven) {
   const scene::Scene scene;
   EXPECT_EQ(points_of(scene, moving(3, 9e-3)), scene.drive.points);

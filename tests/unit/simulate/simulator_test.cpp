@@ -4,6 +4,8 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <thread>
 
@@ -383,6 +385,27 @@ TEST_F(SimulatorOfAFace, TellsItsProgressAndCanBeCancelled) {
   callbacks.cancelled = [&, asked = 0]() mutable { return ++asked == 10; };
   EXPECT_THROW(simulator.run(callbacks), Cancelled);
   expect_equal(simulator.run(), whole);
+}
+
+/// Finding the forces of a long recording takes minutes: each sample reports.
+TEST_F(SimulatorOfAFace, TellsOfEachSampleWhoseForcesAreFound) {
+  options_.drive.by = DriveBy::muscles;
+  Simulator simulator = made(options_);
+  simulator.run();
+  SimulationOptions less = options_;  // the muscle model, which reports too, is kept
+  less.drive.gain = 0.9;
+  simulator.set_options(less);
+  std::vector<double> shares;
+  RunCallbacks callbacks;
+  callbacks.progress = [&](double share) { shares.push_back(share); };
+  simulator.run(callbacks);
+  EXPECT_TRUE(std::is_sorted(shares.begin(), shares.end()));
+  const auto samples = double(motion_.motion.time_s.size());
+  for (int k = 1; k <= int(samples); ++k)
+    EXPECT_TRUE(
+        std::any_of(shares.begin(), shares.end(),
+                    [&](double share) { return std::abs(share - 0.3 * k / samples) < 1e-12; }))
+        << "sample " << k;
 }
 
 /// This holds for the reduced model too: in a long recording its frames take longer than its steps.

@@ -3,10 +3,12 @@
 #include <fstream>
 
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "studio.hpp"
 #include "support/zip_writer.hpp"
 #include "unit/studio/session_fixture.hpp"
 
@@ -14,6 +16,43 @@ namespace hyperex::studio {
 namespace {
 
 using testing::HasSubstr;
+
+TEST_F(StudioSession, TheFaultOfTheFileOnTheCommandLineIsToldInTheTerminalToo) {
+  std::vector<std::string> told;
+  SessionOptions options;
+  options.save_into = folder_.path() / "mine";
+  options.folder = folder_.path() / "own";
+  options.started = folder_.path() / "empty.toml";
+  options.tell = [&](const std::string& text) { told.push_back(text); };
+  std::ofstream(options.started).close();
+  Session session(options, [](const std::string&, bool, const std::string&) {});
+  session.answer({1, "open", {{"what", "started"}}});
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_THAT(told[0], HasSubstr("empty.toml"));
+  std::ofstream(options.started) << "scan.file = [\n";
+  session.answer({2, "open", {{"what", "started"}}});
+  ASSERT_EQ(told.size(), 2u);
+  EXPECT_THAT(told[1], HasSubstr("empty.toml"));
+  session.answer({3, "open", {{"what", "not_there.ply"}}});
+  EXPECT_EQ(told.size(), 2u) << "the page asked for that";
+}
+
+TEST(RunStudio, AFolderIsNoMissingFile) {
+  const TestFolder folder;
+  const auto refusal = [](const fs::path& started) {
+    StudioOptions options;
+    options.started = started;
+    options.open_browser = false;
+    try {
+      run_studio(options);
+    } catch (const InputError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refusal(folder.path()), HasSubstr("is a folder; expected a scene (.toml) or a scan"));
+  EXPECT_THAT(refusal(folder / "none.toml"), HasSubstr("no such file"));
+}
 
 TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
   const fs::path uploads = folder_.path() / "own" / "uploads";

@@ -154,6 +154,58 @@ TEST(FaceBudget, IsWrittenAsATableAndInWords) {
   EXPECT_EQ(json["sentences"].size(), 7u);
 }
 
+// The run says "10.1 to 5.9 mm, 4.2 mm less": -4.105 alone would be printed as 4.1.
+TEST(FaceBudget, PrintsAChangeAsTheDifferenceOfThePrintedExcursions) {
+  BudgetedFigure change{FigureKind::change, "palsy", "cheilion", 'L', -4.105, {}, true};
+  change.errors.add(ErrorPart::mesh, 1);
+  EXPECT_DOUBLE_EQ(change.shown_mm(), -4.1) << "the excursions are not known";
+  change.from_mm = 10.052;
+  change.to_mm = 5.947;
+  EXPECT_NEAR(change.shown_mm(), -4.2, 1e-12);
+  BudgetedFigure none = change;
+  none.from_mm = 9.64;
+  none.to_mm = 9.66;
+  none.value_mm = 0.02;
+  EXPECT_EQ(none.shown_mm(), 0) << "unchanged, although 9.6 and 9.7 are printed";
+  BudgetedFigure apart = none;
+  apart.kind = FigureKind::difference;
+  EXPECT_NEAR(apart.shown_mm(), 0.1, 1e-12) << "9.6 and 9.7 stand beside it";
+  const FaceBudget budget{.figures = {change},
+                          .assumed = {},
+                          .missing = {},
+                          .corners = "cheilion",
+                          .jitter_known = true};
+  const auto sentences = corner_sentences(budget);
+  ASSERT_EQ(sentences.size(), 1u);
+  EXPECT_THAT(sentences[0], testing::HasSubstr("changes by -4.2 mm (95 %: -6.1 to -2.1; mostly"));
+  EXPECT_NEAR(budget_json(budget)["corners_of_the_mouth"][0]["shown_mm"].get<double>(), -4.2,
+              1e-12);
+}
+
+// The ends are those of the exact interval, which is narrower here than a rounding error.
+TEST(FaceBudget, APrintedIntervalContainsThePrintedValue) {
+  BudgetedFigure change{FigureKind::change, "scar", "cheilion", 'L', 0.14, {}, true};
+  change.from_mm = 9.549;
+  change.to_mm = 9.689;
+  change.errors.add(ErrorPart::mesh, 1e-6);
+  const FaceBudget budget{.figures = {change},
+                          .assumed = {},
+                          .missing = {},
+                          .corners = "cheilion",
+                          .jitter_known = true};
+  EXPECT_THAT(corner_sentences(budget)[0], testing::HasSubstr(" 0.2 mm (95 %: 0.1 to 0.2; "));
+}
+
+TEST(FaceBudget, KnowsTheExcursionsThatAChangeIsMadeOf) {
+  const CoarseFace& face = coarse_face();
+  const BudgetedFigure& change = face.figure(FigureKind::change, "cheilion", 'R');
+  EXPECT_EQ(change.from_mm, face.figure(FigureKind::excursion, "cheilion", 'R').value_mm);
+  EXPECT_NEAR(change.to_mm - change.from_mm, change.value_mm, 1e-12);
+  const BudgetedFigure& apart = face.figure(FigureKind::difference, "cheilion", 0);
+  EXPECT_NEAR(apart.to_mm - apart.from_mm, apart.value_mm, 1e-12);
+  EXPECT_TRUE(std::isnan(face.figure(FigureKind::excursion, "cheilion", 'R').from_mm));
+}
+
 TEST(FaceBudget, CountsNoUnknownJitterAsNone) {
   BudgetedFigure change{FigureKind::change, "weak", "cheilion", 'R', -3, {}, false};
   change.errors.add(ErrorPart::mesh, 0.25);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How far the corners of the mouth go: the figures that a reader looks for first, in millimetres.
+import { budgetOf, type BudgetedCorner } from './budget';
 import type { Replay } from './data';
 import { frameAt } from './face/deform';
 import { excursionsOf } from './tables/excursion_table';
@@ -21,6 +22,8 @@ export interface Corners {
   undecided: boolean;
   /** The sides differ by more than the floor, but the recording's jitter is not known and may make that. */
   cannotTell: boolean;
+  /** floorMm, undecided and cannotTell are those of the error budget. */
+  budgeted: boolean;
   /** Both are driven points: they follow the recording in any tissue. */
   driven: boolean;
 }
@@ -30,8 +33,14 @@ const names: [left: string, right: string, pair: string][] = [
 ];
 const largest = (track: (number | null)[]): number => Math.max(0, ...track.map((v) => v ?? 0));
 
+/** A floor that would be shown as 0.000 mm, as that of points without any noise, is none. */
+const shownFloorMm = (mm: number): number => (mm < 5e-4 ? 0 : mm);
+
 /** 95 % bound of a difference of two positions per side with this jitter per coordinate, for a page that states no floor. */
 export const jitterFloorMm = (jitterMm: number): number => 1.96 * 2 * jitterMm;
+
+/** Not decided, as a part of the budget is not known. */
+const isOpen = ({ decided }: BudgetedCorner): boolean => typeof decided !== 'boolean';
 
 /** Null where the run has no points at the corners. */
 export function cornersOf(replay: Replay, face: number): Corners | null {
@@ -45,11 +54,13 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
     const pair = excursionsOf(replay, face).find(({ point }) => point === pairName);
     const leftMm = pair?.excursion_mm.L ?? largest(left);
     const rightMm = pair?.excursion_mm.R ?? largest(right);
-    const floorMm = pair?.floor_mm ?? jitterFloorMm(replay.faces[face].symmetry?.jitter_mm ?? 0);
+    const budget = face === 0 ? budgetOf(replay, { figure: 'difference' }) : null;
+    const floorMm = shownFloorMm(budget?.known_half_width_95_mm ?? pair?.floor_mm ?? jitterFloorMm(replay.faces[face].symmetry?.jitter_mm ?? 0));
     return {
       timeS: landmarks.timeS, left, right, leftMm, rightMm, floorMm,
-      undecided: pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
-      cannotTell: pair?.undecided === null,
+      undecided: budget ? budget.decided === false : pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
+      cannotTell: budget ? isOpen(budget) : pair?.undecided === null,
+      budgeted: budget !== null,
       // The corner has either name.
       driven: names.some(([a, b]) => driven.names.includes(a) && driven.names.includes(b)),
     };
@@ -98,6 +109,16 @@ export function changeBandMm(replay: Replay, face: number, side: Side): number |
   return isNumber(band) ? band : null;
 }
 
+/** The interval of the error budget in place of a band, which leaves most errors out; nothing where the run has none. */
+function judgedByBudget(replay: Replay, face: number, side: Side): Partial<CornerChange> {
+  const budget = budgetOf(replay, { figure: 'change', variant: replay.faces[face].name, side: letterOf[side] });
+  if (!budget) return {};
+  return {
+    bandMm: budget.known_half_width_95_mm, undecided: budget.decided === false, cannotTell: isOpen(budget),
+    bandIs: budget.half_width_95_mm === null ? 'lower bound' : 'budget',
+  };
+}
+
 /** A change held against its band in the row of a variant; `name` stands before _band_mm and _decided there. */
 function judged(row: VariantRow | undefined, name: string, exactMm: number): CornerChange['along'] {
   const band = row?.[`${name}_band_mm`];
@@ -125,6 +146,8 @@ export interface CornerChange {
   /** Some muscle of that side pulls less than in base. */
   weaker: boolean;
   bandMm: number | null;
+  /** Of one other mesh and the jitter; of all errors of the error budget; of those of them that are known. */
+  bandIs: 'band' | 'budget' | 'lower bound';
   undecided: boolean;
   /** The recording's jitter is not known, nor is the band then, and the change is larger than what is known of it. */
   cannotTell: boolean;
@@ -145,9 +168,12 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   const byMm = unchanged ? 0 : roundedMm(toMm - fromMm);
   const weak = row?.weaker_sides;
   const corner = `commissure_${letterOf[side]}`;
+  const budget = judgedByBudget(replay, face, side);
+  const along = judged(row, `${corner}_along_base`, alongMm - from);
   return {
-    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, ...judged(row, corner, to - from), alongMm: roundedMm(alongMm), sameWay,
-    along: judged(row, `${corner}_along_base`, alongMm - from),
+    side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, bandIs: 'band', ...judged(row, corner, to - from), ...budget, alongMm: roundedMm(alongMm), sameWay,
+    // The error budget has no interval for it, and a band that leaves most errors out would look like one.
+    along: budget.bandIs ? { ...along, bandMm: null } : along,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
   };
 }
@@ -198,6 +224,10 @@ export const directionMeaning =
 export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>
   bandMm === null ? '' : heldAgainst(byMm, exactMm, bandMm).limit;
 
+/** "± 0.7 mm"; with an error budget "95 %: ± 2.9 mm", or "at least ± 1.4 mm". */
+export const bandClauseWords = (change: CornerChange): string =>
+  `${{ band: '', budget: '95 %: ', 'lower bound': 'at least ' }[change.bandIs]}± ${bandWords(change)}`;
+
 /** "is dragged 2.1 ± 0.4 mm farther than in base" */
 function changeFigures(change: CornerChange): string {
   const { byMm, exactMm, bandMm, undecided, cannotTell } = change;
@@ -205,16 +235,22 @@ function changeFigures(change: CornerChange): string {
   if (byMm === 0) return aside ? `as far as base${aside}` : 'as base';
   if (undecided) {
     const { own, limit } = heldAgainst(byMm, exactMm, bandMm ?? 0);
+    if (change.bandIs !== 'band') return `undecided: ${own} ${byMm < 0 ? 'less' : 'more'} than base, ${bandClauseWords(change)}${aside}`;
     const figure = bandMm === null ? mm(Math.abs(byMm)) : `${own.replace(' mm', '')} ± ${limit}`;
     return `undecided: ${figure} ${byMm < 0 ? 'less' : 'more'} than base${aside}`;
   }
-  const band = bandMm !== null ? `± ${bandWords(change)}` : cannotTell ? 'cannot tell: the recording’s jitter is not known' : '± not known';
+  const open = bandMm !== null && cannotTell ? ', cannot tell' : '';
+  const band = bandMm !== null ? `${bandClauseWords(change)}${open}` : cannotTell ? 'cannot tell: the recording’s jitter is not known' : '± not known';
   return `${changeSentence(change)}, ${band}${aside}`;
 }
 
 /** "sides differ by 1.2 ± 0.4 mm" */
 function sidesFigures(corners: Corners): string {
   const { own, limit } = apartAgainstFloor(corners);
+  if (corners.budgeted) {
+    const verdict = corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : '';
+    return `sides differ by ${own}, ${corners.cannotTell ? 'at least' : '95 %:'} ± ${limit}${verdict}`;
+  }
   const band = corners.floorMm > 0 ? ` ± ${limit.replace(' mm', '')}` : '';
   return `sides differ by ${own.replace(' mm', '')}${band} mm${corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : ''}`;
 }

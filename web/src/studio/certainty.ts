@@ -39,6 +39,11 @@ export class Certainty {
     this.show();
   }
 
+  /** The figures of the corners of the mouth for the present scene, as a run's summary has them; null: none. */
+  figuresOf(text: string | null): BudgetFigure[] | null {
+    return this.budget !== null && this.budget.text === text ? this.budget.figures : null;
+  }
+
   /** Whether the server is at work on it. */
   get waiting(): boolean {
     return this.askedText !== null && this.askedText === this.state.scene?.text;
@@ -84,11 +89,11 @@ export class Certainty {
   }
 }
 
-function sentence({ figure, side, value_mm, half_width_95_mm, known_half_width_95_mm, decided, largest_part }: BudgetFigure): string {
-  const value = value_mm ?? 0;
+function sentence({ figure, side, value_mm, shown_mm, half_width_95_mm, known_half_width_95_mm, decided, largest_part }: BudgetFigure): string {
+  const value = value_mm ?? 0, shown = shown_mm ?? value;
   const what = figure === 'difference' ? words.certaintyApart : words.certaintyOf(words.sideNames[side ?? 'R'], figure === 'change');
-  const interval = half_width_95_mm === null ? words.certaintyAtLeast(fixed(value, 1), fixed(known_half_width_95_mm, 1))
-    : words.certaintyInterval(fixed(value, 1), fixed(value - half_width_95_mm, 1), fixed(value + half_width_95_mm, 1), largest_part);
+  const interval = half_width_95_mm === null ? words.certaintyAtLeast(fixed(shown, 1), fixed(known_half_width_95_mm, 1))
+    : words.certaintyInterval(fixed(shown, 1), fixed(Math.min(value - half_width_95_mm, shown), 1), fixed(Math.max(value + half_width_95_mm, shown), 1), largest_part);
   const verdict = decided === false ? words.certaintyUndecided : decided === null ? words.certaintyCannotTell : '';
   return [`${what} ${interval}`, verdict].filter(Boolean).join(', ');
 }

@@ -143,6 +143,7 @@ class Studio {
       const manifest = replay as MovingManifest;
       this.withOptions(manifest.summary);
       this.muscles.curves.take(activations as Activations | null, block);
+      this.withBudget(manifest.summary);
       state.source.setMotion(movingOf(manifest, block));
       this.showRemarks(manifest.summary);
       this.movedText = state.scene?.text ?? null;
@@ -166,9 +167,10 @@ class Studio {
 
   /** What longer work reports. */
   private wireWork(): void {
-    const { connection } = this;
+    const { connection, state } = this;
     connection.on('budget', ({ figures, missing, jitter_known, text }) => {
       this.certainty.take({ figures: figures as BudgetFigure[], missing: missing as string[], jitterKnown: jitter_known, text });
+      if (state.source.open && this.withBudget(state.source.replay.summary)) this.figures.refresh();
       document.documentElement.dataset.budget = 'true';
     });
     connection.on('progress', ({ stage, share }) => this.progress.show(stage, share));
@@ -189,6 +191,13 @@ class Studio {
     const current = this.movedText === (this.state.scene?.text ?? null);
     document.documentElement.dataset.current = String(current);
     for (const id of ['figures', 'answer']) at(id).classList.toggle('stale', !current);
+  }
+
+  /** The error budget of the present scene, as a run's summary has it. False: none is known. */
+  private withBudget(summary: Record<string, unknown>): boolean {
+    const figures = this.certainty.figuresOf(this.state.scene?.text ?? null);
+    if (figures) summary.error_budget = { corners_of_the_mouth: figures };
+    return figures !== null;
   }
 
   /** Base's part of a report's summary, from which the variants differ. */

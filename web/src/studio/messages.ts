@@ -68,6 +68,8 @@ export interface BudgetFigure {
   /** Absent for a difference, which is left less right. */
   side?: 'R' | 'L';
   value_mm: number | null;
+  /** As it is printed: a change or a difference agrees with the printed distances. */
+  shown_mm?: number | null;
   /** Null where a part is not known: the interval is wider than the known parts make it. */
   half_width_95_mm: number | null;
   /** Of the parts that are known. */

@@ -378,8 +378,8 @@ export interface MotionEvent {
 export interface BudgetEvent {
   /**
    * of base, then of each variant: variant (absent for base), figure (excursion, difference or change),
-   * side, value_mm, half_width_95_mm and decided (null: not known), known_half_width_95_mm, largest_part,
-   * unknown_part
+   * side, value_mm, shown_mm (as it is printed), half_width_95_mm and decided (null: not known),
+   * known_half_width_95_mm, largest_part, unknown_part
    */
   figures: unknown;
   /** a sentence for each error that could not be simulated */

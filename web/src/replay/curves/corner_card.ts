@@ -2,7 +2,7 @@
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
 import {
-  apartAgainstFloor, asideMm, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, directionMeaning, directionWords, farthestMm, mm, sameMm,
+  apartAgainstFloor, asideMm, bandClauseWords, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, directionMeaning, directionWords, farthestMm, mm, sameMm,
   type CornerChange, type Corners,
 } from '../corners';
 import type { Replay } from '../data';
@@ -18,6 +18,13 @@ import type { Shown } from '../shown';
 import { isNumber } from '../tables/figure_table';
 import { changesOf, variantsOf, type VariantRow } from '../variants';
 
+/** Of a difference with the interval of the error budget. */
+function budgetFloorWords({ undecided, cannotTell }: Corners, limit: string): string {
+  const all = `what all errors of the error budget together make (95 %), ${cannotTell ? `at least ${limit}` : limit}`;
+  if (undecided) return `Undecided: the difference of the sides cannot be told from ${all}.`;
+  return `The sides differ by more than ${all}.${cannotTell ? ' The jitter of the recording is not known and is missing in it.' : ''}`;
+}
+
 /** Where the floor comes from, in words. */
 function floorWords(replay: Replay, corners: Corners): string {
   const { floorMm, undecided, cannotTell } = corners;
@@ -25,6 +32,7 @@ function floorWords(replay: Replay, corners: Corners): string {
   const noJitter = 'The jitter of the recording is not known: none is stated, and none shows. It may make a difference of the sides.';
   if (!(floorMm > 0)) return [meshFloorWhy(replay), cannotTell ? noJitter : ''].filter(Boolean).join(' ') || 'No floor is known: the recording is exact.';
   const { limit } = apartAgainstFloor(corners);
+  if (corners.budgeted) return budgetFloorWords(corners, limit);
   const made = jitter > 0 ? 'what jitter and the mesh make' : 'what the mesh makes';
   const why = jitter > 0 ? `Jitter of the recorded points: ${jitter.toFixed(2)} mm; the notes say where it comes from.` : cannotTell ? noJitter : 'No jitter of the recording was weighed: none is stated, and none shows.';
   const verdict = undecided ? `Undecided: a difference of the sides below ${limit} cannot be told from ${made}.`
@@ -39,7 +47,7 @@ const filterHz = (replay: Replay): number =>
 /** Figures are of filtered paths, the curve is not. */
 function filterWords(replay: Replay): string {
   const hz = filterHz(replay);
-  return hz > 0 ? `The figures above are of paths without what is faster than ${hz} Hz; the curve is unfiltered, and its highest point may lie above them.` : '';
+  return hz > 0 ? `The figures above are of paths without what is faster than ${hz} Hz; the curve is unfiltered. Its highest point may lie above them, by jitter, or below, as the filter goes a little past the end of a motion.` : '';
 }
 
 function meshFloorWhy(replay: Replay): string {
@@ -69,7 +77,7 @@ const cannotTellWords = 'cannot tell, as the jitter of the recording is not know
 
 /** " (± 0.7 mm, undecided)"; empty where nothing is known. */
 function bandClause(change: CornerChange): string {
-  const parts = [change.bandMm === null ? '' : `± ${bandWords(change)}`, change.undecided ? 'undecided' : '', change.cannotTell ? cannotTellWords : ''].filter(Boolean);
+  const parts = [change.bandMm === null ? '' : bandClauseWords(change), change.undecided ? 'undecided' : '', change.cannotTell ? cannotTellWords : ''].filter(Boolean);
   return parts.length > 0 ? ` (${parts.join(', ')})` : '';
 }
 
@@ -82,8 +90,9 @@ function changeVerdict(replay: Replay, face: number): Verdict | null {
   const text = `${change.side} ${changeSentence(change)}`;
   if (change.byMm === 0) return { text: aside ? `${text}${aside}` : 'both corners go as in base', undecided: false };
   if (change.undecided) return { text: `${text}: undecided${change.bandMm === null ? '' : ` (below ${bandWords(change)})`}${aside}`, undecided: true };
-  if (change.cannotTell) return { text: `${text}: ${cannotTellWords}${aside}`, undecided: true };
-  return { text: `${text}${change.bandMm === null ? '' : ` (± ${bandWords(change)})`}${aside}`, undecided: false };
+  const band = change.bandMm === null ? '' : ` (${bandClauseWords(change)})`;
+  if (change.cannotTell) return { text: `${text}${band}: ${cannotTellWords}${aside}`, undecided: true };
+  return { text: `${text}${band}${aside}`, undecided: false };
 }
 
 function strong({ text, undecided }: Verdict): HTMLElement {
@@ -135,14 +144,20 @@ function whatWords(replay: Replay, face: number): string {
   return `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.${direction}`;
 }
 
+/** Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not known. */
+function jawSentence(row: VariantRow | undefined, side: Side): string {
+  const [withJaw, turned] = ['with_jaw', 'with_turned_jaw'].map((what) => row?.[`commissure_${letterOf[side]}_${what}_mm`]);
+  if (!isNumber(withJaw) || withJaw < sameMm) return '';
+  const joints = isNumber(turned) ? ` (${mm(turned)} if the jaw only turned about its joints)` : '';
+  return ` Fixed to the lower jaw it would go ${mm(withJaw)}${joints}, and skin follows the jaw in part.`;
+}
+
 /** Why a corner still moves on a side of which no muscle of this face pulls; empty where some do. */
 function unpulledWords(row: VariantRow | undefined): string {
   const unpulled: unknown = row?.unpulled_sides;
   if (!Array.isArray(unpulled)) return '';
   return sides.filter((side) => unpulled.includes(letterOf[side])).map((side) => {
-    const withJaw = row?.[`commissure_${letterOf[side]}_with_jaw_mm`];
-    const fixed = isNumber(withJaw) && withJaw >= sameMm ? ` (fixed to it, the corner would go ${mm(withJaw)})` : '';
-    return `No muscle pulls on the ${side}: what motion is left there comes from the jaw${fixed}, the other side, and forces that no muscle explains.`;
+    return `No muscle pulls on the ${side}: its corner moves by no strength of its own, but by the jaw, the other side, and forces that no muscle explains.${jawSentence(row, side)}`;
   }).join(' ');
 }
 

@@ -14,12 +14,13 @@ export const whatSCompares =
 /** If one side hardly moves, the ratio of the sides is meaningless. */
 const leastForRatioMm = 0.5;
 
-/** "a difference of 0.5 mm, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
+/** "a difference of 0.5 mm, a ratio right/left of 0.95": of the corners' largest distances from rest. Empty where these
+ *  are not known. No per cent, which elsewhere on the page is a confidence. */
 function plainFigure(replay: Replay, face: number): string {
   const corners = cornersOf(replay, face);
   if (!corners) return '';
   const { leftMm, rightMm } = corners;
-  const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
+  const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, a ratio right/left of ${(rightMm / leftMm).toFixed(2)}` : '';
   return `a difference of ${mm(apartMm(corners))}${ratio}`;
 }
 
@@ -39,12 +40,22 @@ function largestS(replay: Replay, face: number): number | null {
   return values.length > 0 ? Math.max(...values) : null;
 }
 
+/** Whether the largest S of a face is above its floor at that time. Below, values are not told apart. */
+function aboveFloor(replay: Replay, face: number): boolean {
+  const curve = replay.faces[face].symmetry;
+  if (!curve) return false;
+  const { noise = [], floor } = curve;
+  const most = largestS(replay, face);
+  return curve.s.some((s, i) => s !== null && s === most && s > Math.log(Math.max(noise.length === curve.s.length ? noise[i] ?? 0 : 0, floor)));
+}
+
 /** S and the millimetres, as they are shown, order two faces differently. */
 function disagree(replay: Replay, a: number, b: number): { symmetric: number; other: number } | null {
   const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
   const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
   if (sA === null || sB === null || !cornersA || !cornersB) return null;
   if (cornersA.undecided && cornersB.undecided) return null;
+  if (!aboveFloor(replay, a) && !aboveFloor(replay, b)) return null;
   const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));
   const byMm = Number((apartMm(cornersA) - apartMm(cornersB)).toFixed(1));
   if (byS * byMm >= 0) return null;

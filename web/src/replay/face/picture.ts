@@ -32,6 +32,9 @@ const lineHeight = 16;
 /** Most lines of the text below a face. */
 const mostLines = 14;
 const bandWords = '±: from jitter (95 %) and mesh (one sample) alone.';
+const budgetWords = '95 %: with all errors of the error budget.';
+const ofBudget = /(95 %: |at least )±/;
+const ofBand = /(?<!95 %: |at least )±/;
 const family = "system-ui, 'Segoe UI', 'DejaVu Sans', sans-serif";
 
 /** A drawing context in the page's pixels. */
@@ -138,10 +141,10 @@ function drawScale(pen: Pen, scale: Scale, top: number): void {
 /** The words in the foot, as lines; beside the colour bar where there is room for both. */
 function footOf(pen: Pen, { faces, colours, cautions }: PictureParts): { lines: string[]; below: number; height: number } {
   const narrow = pen.width < 620;
-  const uncertain = faces.some(({ changes }) => changes.some((text) => text.includes('±')));
+  const says = (what: RegExp) => faces.some(({ changes }) => changes.some((text) => what.test(text)));
   const words = [
     ...(narrow ? ['Made by Hyperex, a research tool and no medical device.'] : ['Made by Hyperex', 'A research tool and no medical device.']),
-    ...(uncertain ? [bandWords] : []), ...cautions,
+    ...(says(ofBand) ? [bandWords] : []), ...(says(ofBudget) ? [budgetWords] : []), ...cautions,
   ];
   pen.on.font = `400 12px ${family}`;
   const room = pen.width - 2 * margin - (colours && !narrow ? barWidth + margin : 0);
