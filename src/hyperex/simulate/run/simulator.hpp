@@ -120,10 +120,11 @@ struct EliminationOrder {
 ///   muscle model              pattern, order, drive.by, support, tissue (not its volume), model,
 ///                             muscles (not their gains)
 ///   load was found            motion, measured region, drive (not its gain), drive.gain, muscles
-///                             (not their gains), steps of reactions
+///                             (not their gains), steps of reactions, end of muscles
 ///   load                      motion, measured region, drive (not its gain), drive.gain, muscles
 ///                             (not their gains), steps of reactions; unless held driven skin,
-///                             muscle model, pattern, support, tissue (not its volume), model
+///                             muscle model, pattern, support, tissue (not its volume), model, end
+///                             of muscles
 ///   input                     motion, boundary, moved bones, load, drive.gain, muscles.gain,
 ///                             muscles (not their gains), time.step_s, time.end_s,
 ///                             solver.tolerance
@@ -185,7 +186,8 @@ class Simulator {
   /// Where forces drive (DriveBy::muscles, reactions): keeps the forces of the last run, or of the
   /// next one where there was none, whatever tissue and support are set from now on. Copies keep
   /// them too, so that a variant shows what base's forces do. A new motion, drive or muscle (not a
-  /// gain) needs new forces.
+  /// gain) needs new forces. A run that ends later than the one that found them throws InputError
+  /// where muscles drive and the motion goes on.
   void hold_load();
 
   /// Takes the memory and the analysis of the factor of a simulator that is not needed any more.

@@ -74,7 +74,7 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
   p.driven_names = driven.names;
   p.driven_points_rest = driven.rest;
   if (stages.load.has_value()) {
-    const MuscleCourse& recorded = stages.load->muscles;
+    const MuscleCourse recorded = muscles_until(stages.load->muscles, end_s());
     p.muscles = changed_muscles(recorded, options.muscles);
     if (std::string text = hardly_used_text(recorded, options.muscles); !text.empty())
       warn("muscles.gain_hardly_used", "muscles.gain", std::move(text));
