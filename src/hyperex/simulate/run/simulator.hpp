@@ -46,10 +46,12 @@ struct SimulationReport {
   /// found other forces that reproduce the recording. The notes then include "forces.found_anew".
   bool forces_found_anew = false;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
+  int inverted_frame = -1;          ///< that frame; below 0: none
   double greatest_opening_deg = 0;  ///< of the jaw
-  double driven_off_mm = 0;   ///< greatest distance of any driven point from where it is driven
-  double lip_overlap_mm = 0;  ///< greatest depth of LipSurfaces: the lips in each other, over rest
-  double lip_gap_mm = 0;      ///< greatest distance between the lips (ibug68_62, 66), over rest
+  double driven_off_mm = 0;    ///< greatest distance of any driven point from where it is driven
+  double lip_overlap_mm = 0;   ///< greatest depth of LipSurfaces: the lips in each other, over rest
+  int lip_overlap_frame = -1;  ///< where that is; below 0: in none
+  double lip_gap_mm = 0;       ///< greatest distance between the lips (ibug68_62, 66), over rest
   /// All 0 where contact is off (ContactOptions). Depths are those of LipSurfaces and of
   /// ObstaclePlaces, beyond the depth of the same vertex at rest.
   struct Contact {

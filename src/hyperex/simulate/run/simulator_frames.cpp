@@ -59,7 +59,9 @@ void Simulator::Impl::describe_tissue(Performance& p) {
     const auto marks = fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
     inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
   });
-  report.inverted_tets = *std::max_element(inverted.begin(), inverted.end());
+  const auto most = std::max_element(inverted.begin(), inverted.end());
+  report.inverted_tets = *most;
+  report.inverted_frame = *most > 0 ? int(most - inverted.begin()) : -1;
 }
 
 void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
@@ -85,6 +87,7 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
       p.landmarks, p.skin_displacement_m,
       [this](std::size_t count, const auto& frame) { progress.for_frames(count, frame); });
   report.lip_overlap_mm = lips.overlap_mm;
+  report.lip_overlap_frame = lips.overlap_frame;
   report.lip_gap_mm = lips.gap_mm;
   // Surgery moves them away from where they were recorded.
   if (p.neutral_displacement_m.rows() == 0)
