@@ -15,6 +15,7 @@ namespace hyperex::session {
 struct RunCost {
   double frames = 0;                          ///< of each face
   double nodes = 0;                           ///< of the mesh
+  bool guessed = false;                       ///< nodes without the scan's landmarks or its mesh
   double variants = 0;                        ///< besides base
   double from_s = 0, to_s = 0;                ///< what is run of the recording, from its start
   double lead_s = 0;                          ///< before from_s, in which the face is led from rest

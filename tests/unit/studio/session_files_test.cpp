@@ -7,6 +7,7 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "studio.hpp"
 #include "support/zip_writer.hpp"
 #include "unit/studio/session_fixture.hpp"
 
@@ -14,6 +15,16 @@ namespace hyperex::studio {
 namespace {
 
 using testing::HasSubstr;
+
+TEST(StudioFolder, ForSavedFilesIsMade) {
+  const hyperex::test::TestFolder folder;
+  make_folder_for_saved_files(folder / "new" / "deep");
+  EXPECT_TRUE(fs::is_directory(folder / "new" / "deep"));
+  EXPECT_NO_THROW(make_folder_for_saved_files(folder / "new")) << "there already";
+  std::ofstream(folder / "file") << "x";
+  EXPECT_THROW(make_folder_for_saved_files(folder / "file"), InputError);
+  EXPECT_THROW(make_folder_for_saved_files(folder / "file" / "below"), InputError);
+}
 
 TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
   const fs::path uploads = folder_.path() / "own" / "uploads";
