@@ -38,12 +38,12 @@ py::object plain(const py::handle& value, int levels = 64) {
     py::dict out;
     for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value))
       out[key] = plain(item, levels - 1);
-    return std::move(out);
+    return out;
   }
   if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
     py::list out;
     for (const py::handle item : value) out.append(plain(item, levels - 1));
-    return std::move(out);
+    return out;
   }
   return same;
 }

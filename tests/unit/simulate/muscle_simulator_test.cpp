@@ -403,6 +403,7 @@ TEST_F(DrivenByForces, ADriveChangedIsAsOneMadeWithIt) {
 
 TEST_F(DrivenByForces, APartOfAMotionTellsNothingOfTheRest) {
   const AlignedMotion motion = smile_then_opening(face_.landmarks);
+  options_.solver.tolerance = 1e-5;
   const SimulationResult whole = Simulator(mesh_, face_.landmarks, motion, options_).run();
   options_.time.end_s = 0.5;
   const SimulationResult part = Simulator(mesh_, face_.landmarks, motion, options_).run();
@@ -423,7 +424,7 @@ TEST_F(DrivenByForces, APartOfAMotionTellsNothingOfTheRest) {
   for (std::size_t f = 0; f < frames.size(); ++f)
     off = std::max(
         off, (frames[f] - whole.performance.skin_displacement_m[f]).rowwise().norm().maxCoeff());
-  EXPECT_LT(off, 3e-5F);
+  EXPECT_LT(off, 5e-5F);
 }
 
 TEST(SamplesOfRun, AreThoseOfTheRunAndOfTheCurveAtItsEnd) {
