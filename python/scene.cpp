@@ -2,6 +2,7 @@
 // Scene files and face sessions: what `hyperex run` and `hyperex check` do, and the parts of it.
 #include "hyperex/scene/scene.hpp"
 
+#include <cmath>
 #include <optional>
 #include <utility>
 
@@ -25,8 +26,30 @@ namespace {
 
 using Path = std::filesystem::path;
 
+/// Arrays and numbers of numpy as Python's own, and numbers that JSON lacks as text, which the key
+/// then refuses by its name. What is nested deeper than `levels` stays as it is.
+py::object plain(const py::handle& value, int levels = 64) {
+  auto same = py::reinterpret_borrow<py::object>(value);
+  if (levels == 0) return same;
+  if (py::hasattr(value, "tolist")) return plain(value.attr("tolist")(), levels - 1);
+  if (PyFloat_Check(value.ptr()) && !std::isfinite(PyFloat_AsDouble(value.ptr())))
+    return py::str(value);
+  if (py::isinstance<py::dict>(value)) {
+    py::dict out;
+    for (const auto& [key, item] : py::reinterpret_borrow<py::dict>(value))
+      out[key] = plain(item, levels - 1);
+    return out;
+  }
+  if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+    py::list out;
+    for (const py::handle item : value) out.append(plain(item, levels - 1));
+    return out;
+  }
+  return same;
+}
+
 std::string json_of(const py::handle& value) {
-  return py::module_::import("json").attr("dumps")(value).cast<std::string>();
+  return py::module_::import("json").attr("dumps")(plain(value)).cast<std::string>();
 }
 
 session::Changes changes_of(const py::dict& changes) {

@@ -195,6 +195,13 @@ void bind_simulator(py::module_& m) {
       .def(
           "start_stream",
           [](S& self, double interval_s) {
+            constexpr double slow_s = 1;
+            if (interval_s > slow_s)
+              warn_user({{"", Severity::warning,
+                          fmt::format("interval_s = {0:g} s from sample to sample: expected "
+                                      "seconds; {0:g} ms are {1:g} s",
+                                      interval_s, 1e-3 * interval_s),
+                          ""}});
             self.change([&](auto& s) { s.start_stream(interval_s); });
           },
           "interval_s"_a, Unlocked(),

@@ -7,6 +7,8 @@
 Every row of a table whose last column is "from" links there to the page that it comes from. Each number in the row's
 other cells must stand in that page (`code`, as in commands and names, is left out, and so is the first column).
 A command of the column "command" begins with a target of the Makefile (make X), a path or an installed program.
+Without PAGE, the decimals of README.md's section "How good is it?" must stand in docs/how_good.md too, and those of its
+SENTENCES in their rows there.
 """
 import re
 import sys
@@ -14,6 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w]|\.\d)")
+SENTENCES = ((r"seven recorded points has ([\d.]+)\s+times", "real smile, 7 points: below the eyes / lips / cheeks"),)
 LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)")
 
 
@@ -32,6 +35,33 @@ def cannot_be_typed(command, targets):
     if words[0] == "make":
         return len(words) < 2 or words[1] not in targets
     return "/" not in words[0] and words[0] not in ("hyperex", "cmake", "ctest")
+
+
+def of_its_row(text, page):
+    """Complaints of sentences of README whose figure is not the first of the simulated column in the row of the page."""
+    for words, label in SENTENCES:
+        said = re.search(words, text)
+        row = re.search(rf"^\| {re.escape(label)} \|[^|]*\|([^|]*)\|", page.read_text(encoding="utf-8"), re.MULTILINE)
+        if not said or not row:
+            yield f"README.md: nothing like {words!r}" if not said else f"{page.name}: no row {label!r}"
+        elif said.group(1) != numbers(row.group(1))[0]:
+            yield f"README.md: {said.group(1)} is {numbers(row.group(1))[0]} in {page.name}"
+
+
+def not_in_the_page(readme, page):
+    """Of README's section on how good it is: how many decimals there are, and complaints of those that the page lacks."""
+    known, count, complaints, inside = set(numbers(page.read_text(encoding="utf-8"))), 0, [], False
+    for number, line in enumerate(readme.read_text(encoding="utf-8").splitlines(), 1):
+        if line.startswith("## "):
+            inside = line == "## How good is it?"
+        for figure in numbers(line) if inside else ():
+            if "." not in figure:
+                continue
+            count += 1
+            if figure not in known:
+                complaints.append(f"{readme.name}:{number}: {figure} does not stand in {page.name}")
+    complaints += of_its_row(readme.read_text(encoding="utf-8"), page)
+    return count, complaints
 
 
 def main(arguments):
@@ -67,6 +97,12 @@ def main(arguments):
             if figure not in known[source]:
                 print(f"{page.name}:{number}: {figure} does not stand in {source.name}")
                 wrong += 1
+    if not arguments:
+        of_readme, complaints = not_in_the_page(ROOT / "README.md", page)
+        for complaint in complaints or ([] if of_readme else ["README.md: no figure in How good is it?"]):
+            print(complaint)
+            wrong += 1
+        checked += of_readme
     if wrong or not checked:
         print(f"figures: {wrong} of {checked} not found", file=sys.stderr)
         return 1

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
@@ -17,6 +20,8 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/rig/face_rig.hpp"
+#include "hyperex/scene/override.hpp"
+#include "hyperex/scene/toml_values.hpp"
 #include "hyperex/session/embedded_scan.hpp"
 #include "hyperex/session/log_note.hpp"
 
@@ -29,19 +34,43 @@ struct RigOptions {
   std::vector<std::string> overrides;
 };
 
-/// KEY=VALUE, the value as JSON or a bare word.
+/// Makes text of the numbers that JSON lacks, so that their keys refuse them.
+void as_words(nlohmann::json& value) {
+  if (value.is_number_float() && !std::isfinite(value.get<double>()))
+    value = scene::toml_text(value);
+  if (value.is_structured())
+    for (nlohmann::json& part : value) as_words(part);
+}
+
+/// KEY=VALUE, as hyperex run takes it.
 session::Changes changes_of(const std::vector<std::string>& overrides) {
   session::Changes changes;
   for (const std::string& text : overrides) {
     const auto equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
       throw InputError({"--set", 0, text, "no value", "KEY=VALUE, as in tissue.young_kpa=300"});
-    const std::string value = text.substr(equals + 1);
-    changes.insert_or_assign(text.substr(0, equals), nlohmann::json::accept(value)
-                                                         ? session::Value::from_json(value)
-                                                         : session::Value(value));
+    const std::string key = text.substr(0, equals);
+    try {
+      nlohmann::json value = scene::override_value(key, text.substr(equals + 1));
+      as_words(value);
+      changes.insert_or_assign(key, session::Value::from_json(value.dump()));
+    } catch (const nlohmann::json::exception&) {
+      throw InputError({"--set", 0, key, text.substr(equals + 1), "text in UTF-8"});
+    }
   }
   return changes;
+}
+
+/// The error, with the option as the place of values that it gave.
+InputError naming_the_option(const InputError& error, const session::Changes& changes) {
+  std::vector<InputProblem> problems = error.problems();
+  if (problems.empty()) return error;
+  for (InputProblem& problem : problems)
+    if (problem.file.empty() && std::ranges::any_of(changes, [&](const auto& change) {
+          return problem.key.starts_with(change.first);
+        }))
+      problem.file = "--set";
+  return InputError(problems);
 }
 
 session::Face face_of(const RigOptions& options) {
@@ -64,6 +93,16 @@ session::Face face_of(const RigOptions& options) {
   return face;
 }
 
+rig::FaceRig rig_of(const RigOptions& options) {
+  session::Face face = face_of(options);
+  const session::Changes changes = changes_of(options.overrides);
+  try {
+    return rig::make_rig(std::move(face), changes, session::log_note);
+  } catch (const InputError& error) {
+    throw naming_the_option(error, changes);
+  }
+}
+
 /// Unreal's Live Link names ARKit's curves with a first capital: EyeBlinkLeft, JawOpen.
 void name_as_unreal_does(std::vector<report::RigShape>& shapes) {
   for (report::RigShape& shape : shapes) shape.name.front() += 'A' - 'a';
@@ -73,8 +112,7 @@ void run(const RigOptions& options) {
   check_outputs({options.out}, {options.scan, options.landmarks});
   check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
   take_library_memory();
-  rig::FaceRig made =
-      rig::make_rig(face_of(options), changes_of(options.overrides), session::log_note);
+  rig::FaceRig made = rig_of(options);
   for (const std::string& side : made.closed_eyes)
     std::cerr << fmt::format(
         "warning: the scan's {} eye is closed: shapes of its lids and of gaze move nothing\n",

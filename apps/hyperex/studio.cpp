@@ -41,9 +41,10 @@ void add_studio(CLI::App& program) {
       "Open a face in the browser, change its tissue and muscles, and see the effect at once");
   command->add_option("SCENE", options->started,
                       "Scene file or scan; without one the face that comes with the program");
-  command->add_option("--save-into", options->save_into,
-                      "Folder for saved files. Only files that this studio wrote are ever "
-                      "overwritten [default: the current folder]");
+  command->add_option(
+      "--save-into", options->save_into,
+      "Folder for saved files, made if it is missing. Only files that this studio wrote are ever "
+      "overwritten [default: the current folder]");
   command->add_option("--port", options->port, "Port on this machine [default: one that is free]");
   command->add_option("--device", options->device,
                       "A camera to track a face with, live: kinect, openni, openni:URI, webcam:N, "

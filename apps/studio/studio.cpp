@@ -124,13 +124,19 @@ void leave_unsaved_work(const Session& session, SessionFolder& folder) {
 
 }  // namespace
 
+void make_folder_for_saved_files(const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (!fs::is_directory(folder, error))
+    throw InputError(folder, "cannot be made: expected a folder for saved files");
+}
+
 void run_studio(const StudioOptions& options) {
   if (fs::is_directory(options.started))
     throw InputError(options.started, "is a folder; expected a scene (.toml) or a scan");
   if (!options.started.empty() && !fs::is_regular_file(options.started))
     throw InputError(options.started, "no such file: expected a scene (.toml) or a scan");
-  if (!fs::is_directory(options.save_into))
-    throw InputError(options.save_into, "no such folder: expected one for saved files");
+  make_folder_for_saved_files(options.save_into);
   const StopOnRequest stop;
   SessionFolder folder;
   RequestQueue queue;

@@ -20,6 +20,10 @@ struct StudioOptions {
   bool bands = true;  ///< error bands are computed while nothing else is to do
 };
 
+/// Makes StudioOptions::save_into, and its parents, where it is missing. Throws InputError where it
+/// is a file or cannot be made.
+void make_folder_for_saved_files(const std::filesystem::path& folder);
+
 /// Serves until it is interrupted. Prints the address on standard output. Throws InputError where
 /// it cannot start.
 void run_studio(const StudioOptions& options);

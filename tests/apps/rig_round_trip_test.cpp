@@ -101,5 +101,21 @@ TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   refused("check points.toml", 2, "only weights move a rig");
 }
 
+TEST_F(RigRoundTrip, ValuesAreWrittenAsForARun) {
+  for (const char* gain : {"'muscles.gain={\"side_R\": 7}'", "'muscles.gain={ side_R = 7 }'"}) {
+    put(in("points.toml"), "scan.file = \"embedded\"\nmotion.file = \"embedded\"\n");
+    for (const char* command :
+         {"rig embedded --out other.glb --set ", "check points.toml --set "}) {
+      const Outcome found = call(std::string(command) + gain);
+      EXPECT_EQ(found.status, 2) << found.err;
+      EXPECT_THAT(found.err, HasSubstr("--set: muscles.gain.side_R = 7: expected a number"))
+          << command << gain;
+    }
+  }
+  const Outcome found = call("rig embedded --out other.glb --set tissue.young_kpa=nan");
+  EXPECT_EQ(found.status, 2) << found.err;
+  EXPECT_THAT(found.err, HasSubstr("--set: tissue.young_kpa = \"nan\": expected a number"));
+}
+
 }  // namespace
 }  // namespace hyperex

@@ -47,8 +47,17 @@ class FaceSessions(unittest.TestCase):
             self.assertEqual((folder / "after.glb").read_bytes()[:4], b"glTF")
             self.assertEqual(hyperex.read_motion(folder / "after.csv").names[:3],
                              after.performance().landmarks.names[:3])
-        with self.assertRaisesRegex(hyperex.InputError, "tissue.young_kpa = -3"):
+        with self.assertRaisesRegex(hyperex.InputError, "^tissue.young_kpa = -3"):
             face.set("tissue.young_kpa", -3)
+        with self.assertRaisesRegex(hyperex.InputError,
+                                    'variant odd: muscles.gain.zyg_major_L = "nan": expected'):
+            face.variant("odd", {"muscles.gain": {"zyg_major_L": float("nan")}})
+        with self.assertRaisesRegex(hyperex.InputError, '^tissue.young_kpa = "inf"'):
+            face.set("tissue.young_kpa", np.float32("inf"))
+        with self.assertRaisesRegex(TypeError, "not JSON serializable"):
+            face.set("tissue.young_kpa", object())
+        face.set("tissue.young_kpa", np.float32(150))
+        face.set("tissue.region[0].young_factor", np.int64(40))
 
     def test_the_eyes_turn_with_the_gaze(self):
         with tempfile.TemporaryDirectory() as folder:

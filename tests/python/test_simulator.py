@@ -308,7 +308,11 @@ class Stream(unittest.TestCase):
             simulator.step(np.zeros((92, 3)))
         with self.assertRaisesRegex(hyperex.InputError, "interval_s = 0"):
             simulator.start_stream(0)
+        with self.assertWarnsRegex(UserWarning, "33 ms are 0.033 s"):
+            simulator.start_stream(33)
         simulator.start_stream(1 / 30)
+        with self.assertRaisesRegex(hyperex.InputError, "places: expected displacements"):
+            simulator.step(motion().rest_m)
         with self.assertRaisesRegex(hyperex.InputError, "3 rows: expected 92 points"):
             simulator.step(np.zeros((3, 3)))
         unmeasured = np.zeros((92, 3))

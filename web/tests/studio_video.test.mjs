@@ -7,6 +7,7 @@ import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { launch } from './browser.mjs';
 import { openMadeUp } from './made_up_studio.mjs';
+import { decode } from './pixels.mjs';
 
 const pictures = process.env.SCREENSHOTS;
 let browser;
@@ -89,6 +90,30 @@ const slowly = () => {
   };
 };
 
+const titleHeight = 58;
+const stageOf = (page) => page.locator('#canvas-host').evaluate((e) => [e.clientWidth & ~1, e.clientHeight & ~1]);
+
+/** How many colours a row of the picture has. */
+const coloursIn = (picture, row) => picture.evaluate(({ data, width }, y) => {
+  const seen = new Set();
+  for (let i = 4 * y * width; i < 4 * (y + 1) * width; i += 4) seen.add([0, 1, 2].map((k) => data[i + k] >> 5).join());
+  return seen.size;
+}, row);
+
+test('has the title, and the colour bar of a coloured face', async () => {
+  const { page, complaints, close } = await openMadeUp(browser, () => []);
+  await page.locator('#colouring [data-colouring=displacement]').click();
+  const [, stageHeight] = await stageOf(page);
+  const { height, last } = await played(page, await saved(page), [0]);
+  const barHeight = height - titleHeight - stageHeight;
+  assert.ok([76, 92].includes(barHeight), `${barHeight} pixels`);
+  const picture = await decode(page, Buffer.from(last, 'base64'));
+  assert.ok(await coloursIn(picture, titleHeight + stageHeight + 32) > 5, 'the bar');
+  assert.ok(await coloursIn(picture, titleHeight / 2) > 1, 'the title');
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('has a picture for each frame of the motion, at its time, on a slow machine too', async () => {
   const { page, complaints, close } = await openMadeUp(browser, () => [], { init: slowly });
   assert.equal(await page.locator('#save-video').textContent(), 'Save video');
@@ -98,7 +123,7 @@ test('has a picture for each frame of the motion, at its time, on a slow machine
   const { duration, width, height, distinct, last } = await played(page, bytes, [0, 500, 1000]);
   assert.equal(distinct, 3);
   assert.ok(Math.abs(duration - 1.5) < 0.01, `${duration} s`);
-  assert.deepEqual([width, height], await page.locator('#canvas-host').evaluate((e) => [e.clientWidth & ~1, e.clientHeight & ~1]));
+  assert.deepEqual([width, height - titleHeight], await stageOf(page));
   if (pictures) await (await import('node:fs/promises')).writeFile(join(pictures, 'video_last.png'), Buffer.from(last, 'base64'));
   assert.equal(await page.locator('#save-video').textContent(), 'Save video', 'done');
   assert.deepEqual(complaints, []);

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "hyperex/core/printable.hpp"
 
@@ -15,7 +16,7 @@ constexpr std::size_t most_quoted = 120, most_problems = 20, most_in_line = 900;
 
 std::string InputProblem::sentence() const {
   std::string where = file.string();
-  if (line > 0) where += fmt::format(":{}", line);
+  if (line > 0 && !where.empty()) where += fmt::format(":{}", line);
   std::string what = printable(key, most_quoted);
   if (!value.empty()) what += (key.empty() ? "" : " = ") + printable(value, most_quoted);
   std::string text = where;
@@ -33,14 +34,20 @@ std::string join(const std::vector<InputProblem>& problems) {
     text += fmt::format("\n... and {} problems more", problems.size() - most_problems);
   return text;
 }
+
+std::shared_ptr<const std::vector<InputProblem>> kept(std::vector<InputProblem> problems) {
+  return std::make_shared<const std::vector<InputProblem>>(std::move(problems));
+}
 }  // namespace
 
-InputError::InputError(const InputProblem& problem) : std::runtime_error(problem.sentence()) {}
+InputError::InputError(const InputProblem& problem)
+    : std::runtime_error(problem.sentence()), problems_(kept({problem})) {}
 InputError::InputError(const std::vector<InputProblem>& problems)
-    : std::runtime_error(join(problems)) {}
+    : std::runtime_error(join(problems)), problems_(kept(problems)) {}
 InputError::InputError(const std::filesystem::path& file, const std::string& message)
-    : std::runtime_error(printable(file.string() + ": " + message)) {}
+    : std::runtime_error(printable(file.string() + ": " + message)), problems_(kept({})) {}
 
-InputError::InputError(const std::string& sentences) : std::runtime_error(sentences) {}
+InputError::InputError(const std::string& sentences)
+    : std::runtime_error(sentences), problems_(kept({})) {}
 
 }  // namespace hyperex

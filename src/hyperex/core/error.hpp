@@ -4,6 +4,7 @@
 // naming file, key, value and what was expected. Numerical trouble: NumericalError, or better a
 // returned report.
 #include <filesystem>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -30,6 +31,12 @@ class InputError : public std::runtime_error {
   InputError(const std::filesystem::path& file, const std::string& message);
   /// Complete sentences, one per line.
   explicit InputError(const std::string& sentences);
+
+  /// The problems that what() tells; none where it was made of sentences.
+  const std::vector<InputProblem>& problems() const { return *problems_; }
+
+ private:
+  std::shared_ptr<const std::vector<InputProblem>> problems_;
 };
 
 /// The input was sound, but a computation failed (no positive pivot, no convergence).

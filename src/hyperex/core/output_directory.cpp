@@ -13,6 +13,7 @@
 #include <cstring>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/remarks.hpp"
 
 namespace hyperex {
@@ -34,6 +35,14 @@ fs::path followed(const fs::path& target) {
                                          "of a folder for the outputs",
                                          fs::read_symlink(found, error).string()));
   return found;
+}
+
+bool is_named_as_a_file(const fs::path& folder) {
+  constexpr const char* files[] = {".glb", ".gltf", ".html", ".json", ".csv", ".png", ".ply",
+                                   ".obj", ".stl",  ".toml", ".vtu",  ".pvd", ".zip", ".webm",
+                                   ".mp4", ".txt",  ".pdf",  ".trc",  ".jpg"};
+  const std::string ending = ending_of(folder);
+  return std::ranges::any_of(files, [&](const char* one) { return ending == one; });
 }
 
 bool is_or_holds(const fs::path& folder, const fs::path& path) {
@@ -163,6 +172,9 @@ OutputDirectory::OutputDirectory(const fs::path& target, Earlier earlier,
     refuse_inputs_in(target_, inputs);
   } else if (error) {
     throw InputError(target_, "cannot be written (" + error.message() + ")");
+  } else if (is_named_as_a_file(target_)) {
+    throw InputError(target_,
+                     "is named as a file is; expected the name of a folder for the outputs");
   }
   make_parents();
   fs::create_directory(path(), error);

@@ -23,9 +23,9 @@ class OutputDirectory {
   using Earlier = std::function<std::set<std::string>(const std::filesystem::path& folder)>;
 
   /// Throws InputError, before any work is done, where `target` cannot become the folder: it is
-  /// a file, a link to nothing, cannot be written, or holds what no earlier run wrote; and where
-  /// one of `inputs` lies in it and would be replaced (empty ones are passed over). Removes what
-  /// killed processes left beside it.
+  /// a file, a link to nothing, is new and named as a file is (out.glb), cannot be written, or
+  /// holds what no earlier run wrote; and where one of `inputs` lies in it and would be replaced
+  /// (empty ones are passed over). Removes what killed processes left beside it.
   OutputDirectory(const std::filesystem::path& target, Earlier earlier,
                   const std::vector<std::filesystem::path>& inputs = {});
   ~OutputDirectory();

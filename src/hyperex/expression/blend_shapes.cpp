@@ -20,6 +20,8 @@
 #include "hyperex/expression/tables.hpp"
 #include "hyperex/expression/timecode.hpp"
 #include "hyperex/io/csv.hpp"
+#include "hyperex/io/number.hpp"
+#include "hyperex/motion/option_error.hpp"
 
 namespace hyperex::expression {
 namespace {
@@ -53,6 +55,39 @@ std::string shape_meant(const std::string& column, const std::vector<std::string
     best = name;
   }
   return best;
+}
+
+/// "; column jawOpn: did you mean jawOpen?" of the first columns that seem misspelt.
+std::string shapes_meant(const std::vector<std::string>& columns) {
+  constexpr int most = 3;
+  std::string text;
+  int found = 0;
+  for (const std::string& column : columns)
+    if (const std::string meant = shape_meant(column, {}); !meant.empty() && found++ < most)
+      text += fmt::format("; column {}: did you mean {}?", io::quotable(column), meant);
+  return text;
+}
+
+/// Refuses a scan in the place of a table.
+void refuse_scan(const std::filesystem::path& file) {
+  const std::string ending = ending_of(file);
+  for (const char* scan : {".ply", ".obj", ".stl", ".gltf", ".glb"})
+    if (ending == scan)
+      throw InputError(file,
+                       "is a scan; expected a table of weights (CSV), with scan.file = the "
+                       "scan");
+}
+
+bool has_action_units(const io::CsvTable& table) {
+  return table.find("AU12_r") || table.find("AU26_r");
+}
+
+bool has_blend_shapes(const io::CsvTable& table) {
+  return std::ranges::any_of(table.names, [](const std::string& column) {
+    return std::ranges::any_of(arkit_shapes(), [&](const std::string& shape) {
+      return lower_case(shape) == lower_case(column);
+    });
+  });
 }
 
 /// Says which columns were left out.
@@ -106,15 +141,8 @@ void read_eye_angles(const io::CsvTable& table, BlendShapes& out,
   });
 }
 
-}  // namespace
-
-BlendShapes read_arkit(const std::filesystem::path& file) {
-  const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {
-    return name == "Timecode" ? timecode_frames(cell) : std::nullopt;
-  });
-  BlendShapes out;
-  out.file = file;
-  out.lines = table.lines;
+/// Fills in the times. Returns their column, nothing where they are timecodes.
+std::optional<int> read_times(const io::CsvTable& table, BlendShapes& out) {
   const auto rows = table.values.rows();
   out.time_s.assign(static_cast<std::size_t>(rows), kNan);
   std::optional<int> time;
@@ -122,7 +150,8 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     if (!time) time = table.find(name);
   const std::optional<int> timecode = table.find("Timecode");
   if (!time && !timecode)
-    throw InputError(file, "has no time: expected a column time_s, time, timestamp or Timecode");
+    throw InputError(table.file,
+                     "has no time: expected a column time_s, time, timestamp or Timecode");
   if (time) {
     for (Eigen::Index k = 0; k < rows; ++k) out.time_s[k] = table.values(k, *time);
   } else {
@@ -135,6 +164,26 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     out.notes.push_back(fmt::format("timecodes read at {:g} frames a second", rate_hz));
   }
   check_time(table, out.time_s);
+  return time;
+}
+
+}  // namespace
+
+BlendShapes read_arkit(const std::filesystem::path& file) {
+  refuse_scan(file);
+  const io::CsvTable table = io::read_csv(file, [](const std::string& name, std::string_view cell) {
+    return name == "Timecode" ? timecode_frames(cell) : std::nullopt;
+  });
+  if (has_action_units(table) && !has_blend_shapes(table))
+    throw motion::OptionError(file.string(),
+                              "a table of action units by OpenFace, not of ARKit's blend shapes: "
+                              "expected it as ",
+                              "openface", "");
+  BlendShapes out;
+  out.file = file;
+  out.lines = table.lines;
+  const auto rows = table.values.rows();
+  const std::optional<int> time = read_times(table, out);
 
   std::vector<int> columns;
   std::vector<std::string> left_out;
@@ -150,7 +199,8 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     }
   }
   if (columns.empty())
-    throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen");
+    throw InputError(file, "has no column named after a blend shape of ARKit, such as jawOpen" +
+                               shapes_meant(left_out));
   read_eye_angles(table, out, left_out);
   note_left_out(left_out, out);
   note_absent(out);
@@ -169,7 +219,13 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
 
 BlendShapes read_openface(const std::filesystem::path& file) {
   constexpr double kMostIntensity = 5;
+  refuse_scan(file);
   const io::CsvTable table = io::read_csv(file);
+  if (has_blend_shapes(table) && !has_action_units(table))
+    throw motion::OptionError(file.string(),
+                              "a table of ARKit's blend shapes, not of OpenFace's action units: "
+                              "expected it as ",
+                              "arkit", "");
   BlendShapes out;
   out.file = file;
   out.lines = table.lines;

@@ -240,6 +240,19 @@ void add_jumps(const std::vector<WildSample>& more, std::vector<WildSample>& jum
   std::ranges::stable_sort(jumps, {}, &WildSample::sample);
 }
 
+/// Whether a motion that no file states the unit of spans more than a face in metres can.
+bool large_for_metres(const Motion& motion, const Points& at) {
+  constexpr double largest_face_m = 2;
+  if (!motion.unit_note.empty()) return false;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (const auto& point : at.rowwise()) {
+    if (!point.allFinite()) continue;
+    low = low.cwiseMin(point.transpose());
+    high = high.cwiseMax(point.transpose());
+  }
+  return (high - low).maxCoeff() > largest_face_m;
+}
+
 /// `at`: the positions of the motion that are evaluated.
 void check_reach(const Motion& motion, const std::vector<Points>& at, double farthest_m) {
   std::vector<std::size_t> first(motion.names.size(), at.size());  // sample of the first reading
@@ -252,8 +265,11 @@ void check_reach(const Motion& motion, const std::vector<Points>& at, double far
       if (far_m > farthest_m)
         throw InputError(fmt::format(
             "{}: {:.4g} mm from its first place: expected at most {:g} mm, as no point of a face "
-            "moves farther; correct the reading or leave its cells empty",
-            place_of(motion, motion.names[p], k), 1e3 * far_m, 1e3 * farthest_m));
+            "moves farther; {}",
+            place_of(motion, motion.names[p], k), 1e3 * far_m, 1e3 * farthest_m,
+            large_for_metres(motion, at[k])
+                ? "a motion in memory is in metres, and these positions seem to be in millimetres"
+                : "correct the reading or leave its cells empty"));
     }
 }
 

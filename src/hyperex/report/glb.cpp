@@ -10,7 +10,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/core/lower_case.hpp"
 #include "hyperex/report/eye_model.hpp"
 #include "hyperex/report/gltf_face.hpp"
 #include "hyperex/report/jaw_turns.hpp"
@@ -157,6 +159,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
 
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options) {
+  if (ending_of(file) != ".glb")
+    throw InputError(file, "is no name for a binary glTF; expected one that ends in .glb");
   check_glb(performance, options);
   GlbReport report;
   const tinygltf::Model model = model_of(performance, scan, options, report);

@@ -38,8 +38,8 @@ struct GlbReport {
 /// landmarks include the corners of the eyes, the report's eyeballs are nodes eye_R and eye_L,
 /// which turn with performance.gaze. The pockets behind mouth, eyes and nostrils are a second
 /// primitive of the skin's mesh, "cavity", unlit, with the same morph targets. Throws InputError
-/// where the file cannot be written, std::invalid_argument where the performance and the scan do
-/// not belong together.
+/// where the file's name does not end in .glb or it cannot be written, std::invalid_argument where
+/// the performance and the scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                     const io::Scan& scan, const GlbOptions& options = {});
 

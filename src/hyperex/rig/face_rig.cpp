@@ -52,6 +52,14 @@ std::vector<Pose> poses_of(std::map<std::string, std::size_t>& place) {
   return poses;
 }
 
+/// The shape that each pose is of. There is one pose per second (motion_through()).
+std::vector<std::string> shapes_of(const std::map<std::string, std::size_t>& place) {
+  std::vector<std::string> shapes(place.size());
+  for (const auto& [name, at] : place)
+    shapes[at] = name == "open" || name == "closed" ? "mouthClose" : name;
+  return shapes;
+}
+
 /// The simulated shapes as those of the rig.
 class Shapes {
  public:
@@ -137,8 +145,13 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
   const auto told = [&](const Note& one) {
     if (note && concerns_the_scan(one)) note(one);
   };
-  session::FaceSession session(session::SceneSource(std::move(given), all).scene(),
-                               {.certainty = session::Certainty::on_request, .note = told});
+  const std::vector<std::string> shapes = shapes_of(place);
+  const auto in_shape = [&](int frame) {
+    return "in the shape " + shapes.at(std::size_t(frame / kFrameRate_hz));
+  };
+  session::FaceSession session(
+      session::SceneSource(std::move(given), all).scene(),
+      {.certainty = session::Certainty::on_request, .note = told, .frame_words = in_shape});
   session.run_base();
   for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
   const Shapes simulated(session.simulation().performance, std::move(place));

@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/scene/toml_values.hpp"
 
 namespace hyperex::scene {
 using nlohmann::json;
@@ -59,6 +61,16 @@ bool is_section(const std::string& name) {
   const auto& all = sections();
   return !name.empty() &&
          std::any_of(all.begin(), all.end(), [&](const Section& s) { return s.name == name; });
+}
+
+json override_value(const std::string& key, const std::string& text) {
+  std::optional<json> value = parse_toml_value(text);
+  if (!value) value = parse_json_value(text);
+  // A file may be called 7 or 2024-01-01, which TOML reads as a number or a date.
+  const Key* found = find_key(key);
+  const bool wordy = found && (found->kind == Kind::text || found->kind == Kind::choice ||
+                               found->kind == Kind::path);
+  return value && (!wordy || value->is_string()) ? *value : json(text);
 }
 
 std::map<std::string, json> changes_of(const json& block) {

@@ -22,6 +22,10 @@ struct Override {
 /// read_scene() does.
 Scene read_scene_with(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
+/// VALUE of KEY=VALUE, for a key of a scene: as in a scene file, else as JSON ({"side_R": 0.3}),
+/// else `text` itself. Of a key whose values are words it is a string in any case.
+nlohmann::json override_value(const std::string& key, const std::string& text);
+
 /// The changes in a table of overrides, by key: "tissue.young_kpa": 400 from {"tissue":
 /// {"young_kpa": 400}}. Values that are themselves tables stay as they are. "name" is the name of
 /// the table itself and is left out.

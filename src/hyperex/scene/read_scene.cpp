@@ -127,13 +127,7 @@ void SceneReader::take_override(const Override& given) {
     complain(origin, "", text, "KEY=VALUE, as in time.step_s=0.001");
     return;
   }
-  const std::string value_text = text.substr(equals + 1);
-  const Key* key = find_key(name);
-  json value = parse_toml_value(value_text).value_or(value_text);
-  // A file may be called 7 or 2024-01-01, which TOML reads as a number or a date.
-  const bool wordy =
-      key && (key->kind == Kind::text || key->kind == Kind::choice || key->kind == Kind::path);
-  if (wordy && !value.is_string()) value = value_text;
+  const json value = override_value(name, text.substr(equals + 1));
   if (is_section(name))
     complain(origin, name, value, "a key of the section, as in " + name + ".KEY=VALUE");
   else if (name == "variant")

@@ -406,7 +406,7 @@ struct LeftOutVariant {
 const std::vector<std::string>& variant_sections();
 
 /// Reads a scene file (TOML, docs/scene.md), then `overrides` ("KEY=VALUE"; the last one of a key
-/// wins; VALUE is TOML or a bare string). Paths in the file are relative to the file, paths in
+/// wins; VALUE is TOML, JSON or a bare string). Paths in the file are relative to it, paths in
 /// overrides to the current folder. Throws one InputError with all problems, one line each: invalid
 /// TOML, unknown keys, wrong types, values out of range, missing keys or files.
 Scene read_scene(const std::filesystem::path& file, const std::vector<std::string>& overrides = {});

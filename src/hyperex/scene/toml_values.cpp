@@ -115,6 +115,13 @@ std::optional<json> parse_toml_value(const std::string& value) {
   }
 }
 
+std::optional<json> parse_json_value(const std::string& value) {
+  if (io::line_nested_too_deep_json(value) > 0) return std::nullopt;
+  json read = json::parse(value, nullptr, false);
+  if (!read.is_structured()) return std::nullopt;
+  return read;
+}
+
 std::string toml_text(const json& value) {
   if (value.is_number_float() && !std::isfinite(value.get<double>())) {
     const double number = value.get<double>();

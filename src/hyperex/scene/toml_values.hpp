@@ -26,7 +26,11 @@ TomlValues parse_toml(const std::string& text);
 /// VALUE of KEY=VALUE where it is one TOML value, else nothing.
 std::optional<nlohmann::json> parse_toml_value(const std::string& value);
 
-/// The inverse: a VALUE on one line, from which parse_toml_value() gives `value`.
+/// The same of a list or table that is written as JSON, as {"side_R": 0.3}.
+std::optional<nlohmann::json> parse_json_value(const std::string& value);
+
+/// The inverse of parse_toml_value(): a VALUE on one line, from which parse_toml_value() gives
+/// `value`.
 std::string toml_text(const nlohmann::json& value);
 
 }  // namespace hyperex::scene

@@ -33,8 +33,7 @@ class Value {
 /// Keys of a scene (docs/scene.md) and their values: {{"tissue.young_kpa", 300}}.
 using Changes = std::map<std::string, Value>;
 
-/// As read_scene() takes them (scene/scene.hpp): "tissue.young_kpa=300". JSON's scalars and lists
-/// are TOML's.
+/// As read_scene() takes them (scene/scene.hpp): "tissue.young_kpa=300". It reads JSON, too.
 std::vector<std::string> overrides_of(const Changes& changes);
 
 }  // namespace hyperex::session

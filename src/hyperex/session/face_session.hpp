@@ -53,6 +53,8 @@ struct SessionOptions {
   std::function<void(const Inputs&)> inputs = {};
   /// The constructor leaves out variants that it would refuse: left_out().
   bool leave_out_variants = false;
+  /// Words for a frame in notes, such as "in the shape jawOpen". Empty: its time.
+  std::function<std::string(int frame)> frame_words = {};
 };
 
 /// Wall time of the stages, s; 0 for those that were kept.

@@ -30,10 +30,11 @@ void FaceSession::Impl::finish_search() {
 /// reported again.
 void FaceSession::Impl::note_base() {
   const std::vector<Note> before = std::exchange(
-      base_notes,
-      notes_on_contact_and_elements(simulation.report, simulation.performance, scene.contact));
+      base_notes, notes_on_contact_and_elements(simulation.report, simulation.performance,
+                                                scene.contact, session_options.frame_words));
   append(base_notes, gaze_notes(simulation.performance, backing ? &*backing : nullptr));
-  append(base_notes, run_warnings(simulation.report, simulation.performance));
+  append(base_notes, run_warnings(simulation.report, simulation.performance, scene.contact,
+                                  session_options.frame_words));
   append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
   append(base_notes, volume_warnings(peak()));
   append(base_notes, strain_notes(peak()));

@@ -20,9 +20,6 @@
 namespace hyperex::session {
 namespace {
 
-/// The variant that set() changes.
-constexpr const char* kChanged = "changed";
-
 MirroredTwin no_twin() {
   MirroredTwin none;
   none.why_not = "no mirrored twin was run yet";

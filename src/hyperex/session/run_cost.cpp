@@ -156,6 +156,7 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
 
   RunCost cost;
   cost.nodes = mesh.nodes;
+  cost.guessed = !volume && inputs.landmarks.empty();
   cost.frames = std::max(1.0, std::ceil(end_s * scene.time.frame_rate_hz - 1e-6));
   cost.variants = double(scene.variants.size());
   cost.from_s = scene.motion.start_s;
@@ -203,6 +204,7 @@ std::string sentence_of(const RunCost& cost) {
   if (cost.frames_bytes > 0.5 * cost.disk_bytes)
     text += fmt::format(" (frames/, for ParaView: {})", size_text(cost.frames_bytes));
   text += fmt::format(", {} of memory", size_text(cost.memory_bytes));
+  if (cost.guessed) text += " (a guess without landmarks)";
   if (cost.seconds == 0) return text + "; its duration is not known in advance";
   text += fmt::format(", {} on two idle processors", time_text(cost.seconds));
   if (cost.budget_seconds > 0)

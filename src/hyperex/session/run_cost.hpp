@@ -13,9 +13,10 @@ namespace hyperex::session {
 
 /// The expected cost of a run with all its outputs.
 struct RunCost {
-  double frames = 0;    ///< of each face
-  double nodes = 0;     ///< of the mesh
-  double variants = 0;  ///< besides base
+  double frames = 0;     ///< of each face
+  double nodes = 0;      ///< of the mesh
+  bool guessed = false;  ///< nodes without the scan's landmarks or its mesh
+  double variants = 0;   ///< besides base
   /// Of the first and the last frame in the recording, from its start. The end of the run itself
   /// makes no frame: of 1 s at 30 Hz the last one is at 0.967 s.
   double from_s = 0, to_s = 0;

@@ -26,6 +26,11 @@ bool few_are_inverted(int inverted, Eigen::Index tets) {
   return inverted <= kFewInverted * double(tets);
 }
 
+std::string words_for(int frame, const simulate::Performance& p, const FrameWords& words) {
+  if (frame < 0 || std::size_t(frame) >= p.frame_time_s.size()) return "in some frame";
+  return words ? words(frame) : fmt::format("at {:.2f} s", p.frame_time_s[std::size_t(frame)]);
+}
+
 /// The greatest distance of any vertex in any frame, m; infinite where the frames differ in number.
 double greatest_distance_m(const simulate::Performance& a, const simulate::Performance& b) {
   const auto &of_a = a.skin_displacement_m, &of_b = b.skin_displacement_m;
@@ -43,14 +48,15 @@ double greatest_distance_m(const simulate::Performance& a, const simulate::Perfo
 
 std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport& report,
                                                 const simulate::Performance& p,
-                                                const simulate::ContactOptions& contact) {
+                                                const simulate::ContactOptions& contact,
+                                                const FrameWords& words) {
   std::vector<Note> notes;
   const Eigen::Index tets = p.tets.rows();
   if (report.inverted_tets > 0 && few_are_inverted(report.inverted_tets, tets))
     notes.push_back(make_note(
         "tissue.few_inverted",
-        fmt::format("{} of {} tetrahedra turned inside out in some frame, too few to matter",
-                    report.inverted_tets, tets)));
+        fmt::format("{} of {} tetrahedra turned inside out {}, too few to matter",
+                    report.inverted_tets, tets, words_for(report.inverted_frame, p, words))));
   if (contact.any() && report.contact.frames == 0)
     notes.push_back(make_note("contact.none", "contact: nothing touches in any frame"));
   return notes;
@@ -73,22 +79,23 @@ std::vector<Note> gaze_notes(const simulate::Performance& p, const report::FaceB
 }
 
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
-                               const simulate::Performance& p) {
+                               const simulate::Performance& p,
+                               const simulate::ContactOptions& contact, const FrameWords& words) {
   std::vector<Note> notes = report.notes;
   if (report.lip_overlap_mm > kLipsPass_mm)
     warn("lips.pass_through",
-         fmt::format(
-             "the lips pass through each other by up to {0:.1f} mm. Figures of the lips "
-             "between driven points, and the opening of the mouth, are off by at most that "
-             "much; those of driven points are not. contact.lips = true keeps the lips apart",
-             report.lip_overlap_mm),
+         fmt::format("the lips pass through each other by up to {:.1f} mm, {}. Figures of the lips "
+                     "between driven points, and the opening of the mouth, are off by at most that "
+                     "much; those of driven points are not. {}",
+                     report.lip_overlap_mm, words_for(report.lip_overlap_frame, p, words),
+                     contact.lips ? "Contact of the lips is on and does not keep them apart there"
+                                  : "contact.lips = true keeps the lips apart"),
          notes);
   if (report.inverted_tets > 0 && !few_are_inverted(report.inverted_tets, p.tets.rows()))
     warn("tissue.inverted",
          fmt::format(
-             "{} of {} tetrahedra are turned inside out in some frame: the motion is too large for "
-             "{} there",
-             report.inverted_tets, p.tets.rows(),
+             "{} of {} tetrahedra are turned inside out {}: the motion is too large for {} there",
+             report.inverted_tets, p.tets.rows(), words_for(report.inverted_frame, p, words),
              p.model.strain == simulate::Strain::finite ? "these elements" : "linear strain"),
          notes);
   return notes;
@@ -153,10 +160,9 @@ std::vector<Note> lips_that_pass(const std::vector<VariantRun>& runs, double bas
       warn("variant.lips_pass_through",
            fmt::format(
                "variant {}: the lips pass through each other by up to {:.1f} mm ({:.1f} mm in "
-               "base): its figures of the lips are off by as much at most; contact.lips = true "
-               "keeps "
-               "the lips apart",
-               run.scene.title, mm, base_mm),
+               "base): its figures of the lips are off by as much at most{}",
+               run.scene.title, mm, base_mm,
+               run.scene.contact.lips ? "" : "; contact.lips = true keeps the lips apart"),
            notes, run.scene.title);
   return notes;
 }

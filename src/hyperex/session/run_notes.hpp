@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 // Notes on a finished run, made here for the program, the studio and Python alike.
+#include <functional>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "hyperex/core/note.hpp"
@@ -15,11 +17,15 @@ struct FaceBacking;
 
 namespace hyperex::session {
 
+/// Words for a frame in a sentence, such as "at 0.77 s".
+using FrameWords = std::function<std::string(int frame)>;
+
 /// Notes, no warnings: few inverted tetrahedra (`tissue.few_inverted`: at most 0.1 %), contact that
-/// never acts (`contact.none`).
+/// never acts (`contact.none`). `words`: empty: the frame's time.
 std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport& report,
                                                 const simulate::Performance& performance,
-                                                const simulate::ContactOptions& contact);
+                                                const simulate::ContactOptions& contact,
+                                                const FrameWords& words = {});
 
 /// `eyes.closed` (a note): the recording has a gaze, and the scan has no opening at an eye, so that
 /// the eyeball there is hidden. `backing`: report::face_backing() of `performance`; null: the
@@ -28,9 +34,12 @@ std::vector<Note> gaze_notes(const simulate::Performance& performance,
                              const report::FaceBacking* backing);
 
 /// Warnings: the report's own notes (SimulationReport::notes), `lips.pass_through` (by more than
-/// 0.5 mm), `tissue.inverted` (more than 0.1 % of the tetrahedra).
+/// 0.5 mm), `tissue.inverted` (more than 0.1 % of the tetrahedra). `words`: empty: the frame's
+/// time.
 std::vector<Note> run_warnings(const simulate::SimulationReport& report,
-                               const simulate::Performance& performance);
+                               const simulate::Performance& performance,
+                               const simulate::ContactOptions& contact,
+                               const FrameWords& words = {});
 
 /// `symmetry.plane_of_landmarks` (a warning: the plane between left and right),
 /// `symmetry.no_mesh_floor` (a note: `why_no_twin`, a sentence, where it is not empty).

@@ -2,7 +2,11 @@
 #include "hyperex/session/scene_source.hpp"
 
 #include <algorithm>
+#include <cstdlib>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <utility>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/scene/given_text.hpp"
@@ -72,6 +76,58 @@ const scene::Scene* variant_of(const scene::Scene& scene, const std::string& nam
   return nullptr;
 }
 
+/// The problem's key without its place among the variants: "tissue.young_kpa" of set()'s own, else
+/// "variant weak: tissue.young_kpa".
+std::string named_by_variant(const std::string& key, const std::string& text) {
+  constexpr std::string_view start = "variant[";
+  const auto close = key.find(']');
+  if (!key.starts_with(start) || close == std::string::npos) return key;
+  const std::vector<json> blocks = scene::variant_blocks(text);
+  const std::size_t number = std::strtoul(key.c_str() + start.size(), nullptr, 10);
+  if (number >= blocks.size()) return key;
+  const std::string name = scene::name_of_block(blocks[number]);
+  const std::string own = key.substr(std::min(close + 2, key.size()));
+  if (name == kChanged && !own.empty()) return own;
+  return "variant " + name + (own.empty() ? "" : ": " + own);
+}
+
+/// The error of a text that the program made, without places in it.
+InputError by_name(const InputError& error, const std::filesystem::path& file,
+                   const std::string& text) {
+  if (error.problems().empty()) return error;
+  std::vector<InputProblem> problems = error.problems();
+  for (InputProblem& problem : problems) {
+    if (problem.file != file) continue;
+    problem.file.clear();
+    problem.line = 0;
+    problem.key = named_by_variant(problem.key, text);
+  }
+  return InputError(problems);
+}
+
+/// The places of keys whose values are as before; those of others are empty.
+void keep_places(const scene::Scene& before, const std::string& changed,
+                 std::map<std::string, scene::Origin>& places) {
+  for (auto& [key, place] : places) {
+    const auto found = before.origins.find(key);
+    const bool is_new = !changed.empty() && key.starts_with(changed);
+    place = found == before.origins.end() || is_new ? scene::Origin{} : found->second;
+  }
+}
+
+/// The same of a scene and of its variants, of which the one called `variant` is new.
+void keep_places(const scene::Scene& before, const std::string& changed, const std::string& variant,
+                 scene::Scene& now) {
+  keep_places(before, changed, now.origins);
+  for (scene::Variant& own : now.variants) {
+    const scene::Scene* known = own.name == variant ? nullptr : variant_of(before, own.name);
+    keep_places(known ? *known : before, changed, own.scene.origins);
+    if (known) continue;
+    for (auto& [key, place] : own.scene.origins)
+      if (own.changes.contains(key.substr(0, key.find('[')))) place = {};
+  }
+}
+
 }  // namespace
 
 bool is_variant_key(const std::string& key) {
@@ -99,10 +155,15 @@ std::string SceneSource::text_now() const {
   return text_.empty() ? scene::given_text(scene_) : text_;
 }
 
-void SceneSource::read() {
-  const KeptResults kept = scene_.kept;
-  scene_ = scene::read_scene_text(text_, scene_.file);
-  scene_.kept = kept;
+void SceneSource::read(const std::string& changed, const std::string& variant) {
+  const scene::Scene before = std::move(scene_);
+  try {
+    scene_ = scene::read_scene_text(text_, before.file);
+  } catch (const InputError& error) {
+    throw by_name(error, before.file, text_);
+  }
+  keep_places(before, changed, variant, scene_);
+  scene_.kept = before.kept;
   if (!given_.scan) return;
   scene_.given = given_;
   scene_.scan.source = {false, given_.scan->file};
@@ -112,7 +173,7 @@ void SceneSource::read() {
 SceneSource SceneSource::with_value(const std::string& key, const Value& value) const {
   SceneSource next = *this;
   next.text_ = scene::with_value(text_now(), known_key(key).name, parsed(value));
-  next.read();
+  next.read(key);
   return next;
 }
 
@@ -125,7 +186,7 @@ SceneSource SceneSource::with_variant(const std::string& name, const Changes& ch
   for (const auto& [key, value] : changes)
     scene::put_value(block, known_key(key).name, parsed(value));
   next.text_ = scene::with_variants(next.text_, blocks);
-  next.read();
+  next.read("", name);
   return next;
 }
 
@@ -143,7 +204,7 @@ SceneSource SceneSource::with_change(const std::string& name, const std::string&
   std::vector<json> blocks = scene::variant_blocks(next.text_);
   scene::put_value(block_of(blocks, name), part.key, whole);
   next.text_ = scene::with_variants(next.text_, blocks);
-  next.read();
+  next.read("", name);
   return next;
 }
 

@@ -8,11 +8,15 @@
 
 namespace hyperex::session {
 
+/// The variant that FaceSession::set() changes.
+inline constexpr const char* kChanged = "changed";
+
 /// Whether a variant may change the key, since another value needs no new inputs and no new mesh.
 bool is_variant_key(const std::string& key);
 
 /// The scene of a session, and changes of its keys. Changes go through the text of a scene file, so
-/// that every value is checked as in a file.
+/// that every value is checked as in a file. Errors name a key and its variant, and no place in
+/// that text.
 class SceneSource {
  public:
   /// A scene that was read. `scene.given` is passed to every scene made from it.
@@ -35,7 +39,8 @@ class SceneSource {
                           const Value& value) const;
 
  private:
-  void read();
+  /// Reads text_. `changed`: keys of base whose values are new; `variant`: the variant that is new.
+  void read(const std::string& changed = "", const std::string& variant = "");
   std::string text_now() const;
 
   scene::Scene scene_;

@@ -28,6 +28,19 @@ TEST(InputError, OneLineAProblem) {
   EXPECT_STREQ(InputError(problems).what(),
                "s.toml:1: a = 1: expected 2\ns.toml:2: b = 3: expected 4");
   EXPECT_STREQ(InputError("scan.ply", "is torn").what(), "scan.ply: is torn");
+  EXPECT_STREQ(InputError({"", 14, "a", "1", "2"}).what(), "a = 1: expected 2")
+      << "no file, no line";
+}
+
+TEST(InputError, KeepsItsProblems) {
+  const InputError error(
+      std::vector<InputProblem>{{"s.toml", 1, "a", "1", "2"}, {"s.toml", 2, "b", "3", "4"}});
+  const InputError copy = error;
+  ASSERT_EQ(copy.problems().size(), 2u);
+  EXPECT_EQ(copy.problems()[1].key, "b");
+  EXPECT_EQ(InputError({"s.toml", 1, "a", "1", "2"}).problems().size(), 1u);
+  EXPECT_TRUE(InputError("a sentence").problems().empty());
+  EXPECT_TRUE(InputError("scan.ply", "is torn").problems().empty());
 }
 
 TEST(InputError, TellsTheFirstTwentyProblemsAndHowManyMore) {

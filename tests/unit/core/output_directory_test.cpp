@@ -55,6 +55,15 @@ class OutputFolder : public ::testing::Test {
   const TestFolder folder_;
 };
 
+TEST_F(OutputFolder, IsNotNamedAsAFileIs) {
+  for (const char* name : {"face.glb", "new/report.HTML"})
+    expect_refused(folder_ / name, "is named as a file is; expected the name of a folder");
+  EXPECT_TRUE(names().empty());
+  EXPECT_NO_THROW(run(folder_ / "version 1.2"));
+  fs::create_directory(folder_ / "there.glb");
+  EXPECT_NO_THROW(run(folder_ / "there.glb")) << "a folder of that name is one";
+}
+
 TEST_F(OutputFolder, AppearsOnCommitOnly) {
   const fs::path target = folder_ / "deep" / "out";
   {

@@ -298,6 +298,17 @@ TEST_F(BlendShapesFile, RefusesWhatItCannotRead) {
   expect_refused(write("o.csv", "timestamp,gaze\n0,0\n1,1\n"), {"AU01_r"}, read_openface);
   expect_refused(write("p.csv", "timestamp,AU26_r\n0,0\n1,7\n"), {":3: ", "AU26_r", "7", "0 to 5"},
                  read_openface);
+  expect_refused(write("units.csv", "timestamp,AU12_r\n0,0\n1,1\n"),
+                 {"action units by OpenFace", "expected it as openface"}, read_arkit);
+  expect_refused(write("shapes.csv", "time_s,JawOpen\n0,0\n1,1\n"),
+                 {"ARKit's blend shapes", "expected it as arkit"}, read_openface);
+  for (const auto read : {read_arkit, read_openface})
+    expect_refused(write("scan.ply", "ply\nformat ascii 1.0\n"), {"is a scan", "table of weights"},
+                   read);
+  expect_refused(write("slips.csv", "time_s,jawOpn,mouthSmilleLeft\n0,0,0\n1,1,1\n"),
+                 {"column jawOpn: did you mean jawOpen?",
+                  "column mouthSmilleLeft: did you mean mouthSmileLeft?"},
+                 read_arkit);
   expect_refused(write("t.csv", "time_s,tongueOut\n0,0\n1,1\n"), {"canonical", "tongueOut"},
                  [](const std::filesystem::path& file) { moved_by(read_arkit(file)); });
 }

@@ -188,6 +188,15 @@ TEST(WildSamples, WhatNoFaceCanReachIsRefusedByLinePointTimeAndDistance) {
   EXPECT_NO_THROW(check_reach(with_jump(0.1, 10, 30)));
 }
 
+TEST(WildSamples, MillimetresInTheMemoryAreTakenForMetres) {
+  Motion motion = with_jump(0.151, 10, 30);
+  testing::expect_refused([&] { check_reach(motion); }, {"correct the reading"});
+  for (Points& at : motion.positions) at *= 1e3;
+  testing::expect_refused([&] { check_reach(motion); }, {"seem to be in millimetres"});
+  motion.unit_note = "m";
+  testing::expect_refused([&] { check_reach(motion); }, {"correct the reading"});
+}
+
 TEST(WildSamples, AHeadMayGoFarAndTurn) {
   Motion walking = opening(kStep_s, 1);
   EXPECT_NO_THROW(check_reach_beside_head(walking)) << "by 1 m";

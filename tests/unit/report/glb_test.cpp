@@ -401,6 +401,8 @@ TEST(Glb, RefusesWhatDoesNotBelongTogetherAndUnwritablePlaces) {
   other.performance.skin_displacement_m.back() = PointsF::Zero(2, 3);
   EXPECT_THROW(write_glb(scratch("x.glb"), other.performance, other.scan), std::invalid_argument);
   EXPECT_THROW(write_glb("/nowhere/x.glb", face.performance, face.scan), InputError);
+  EXPECT_THROW(write_glb(scratch("x.txt"), face.performance, face.scan), InputError);
+  EXPECT_FALSE(std::filesystem::exists(scratch("x.txt")));
 }
 
 }  // namespace

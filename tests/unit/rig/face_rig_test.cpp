@@ -65,6 +65,10 @@ TEST_F(RigOfAFace, NotesAreOfTheScanAlone) {
       EXPECT_FALSE(note.id.starts_with(start)) << note.text;
     EXPECT_EQ(note.text.find("drive.by"), std::string::npos) << note.text;
     EXPECT_EQ(note.text.find("tissue.strain"), std::string::npos) << note.text;
+    EXPECT_EQ(note.text.find("contact.lips = true"), std::string::npos) << "it is on";
+    if (note.id == "lips.pass_through" || note.id.ends_with("inverted")) {
+      EXPECT_NE(note.text.find(" in the shape "), std::string::npos) << note.text;
+    }
   }
 }
 

@@ -392,6 +392,13 @@ TEST(Overrides, ValuesAreTomlElseBareText) {
   EXPECT_EQ(read_scene(file, {"title="}).title, "");
   EXPECT_EQ(read_scene(file, {"time.step_s=1e-3"}).time.step_s, 0.001);
   EXPECT_EQ(read_scene(file, {"title=1\n[time]\nstep_s=1"}).title, "1\n[time]\nstep_s=1");
+  // A table as TOML or as JSON.
+  for (const char* gain : {"{ side_R = 0.3 }", "{\"side_R\": 0.3}"}) {
+    const auto& gains = read_scene(file, {std::string("muscles.gain=") + gain}).muscles.gains;
+    ASSERT_EQ(gains.size(), 1u) << gain;
+    EXPECT_EQ(gains[0].muscle, "side_R");
+    EXPECT_EQ(gains[0].gain, 0.3);
+  }
   EXPECT_THAT(sentences(problems_of(file, {"time.step_s=fast"})),
               HasSubstr("--set: time.step_s = \"fast\": expected a number from"));
   for (const char* bad : {"=3", "title", "", "title=\xff"})

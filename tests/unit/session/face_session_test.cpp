@@ -187,6 +187,44 @@ TEST(FaceSession, ASceneThatIsRefusedChangesNothing) {
   EXPECT_NE(face.scene().variants[0].name, "softer");
 }
 
+TEST(FaceSession, ErrorsOfChangesNameKeysAndNoMadeUpPlaces) {
+  const std::string weak =
+      kCoarse + kMuscles + "[[variant]]\nname = \"weak\"\nmuscles.gain = { side_R = 0.2 }\n";
+  FaceSession face = session_of(weak);
+  const auto said = [](const auto& act) { return test::refusal(act); };
+  EXPECT_THAT(said([&] { face.set("tissue.young_kpa", -3); }),
+              testing::StartsWith("tissue.young_kpa = -3: expected a number"));
+  EXPECT_THAT(said([&] { face.set("mesh.layers", -1); }),
+              testing::StartsWith("mesh.layers = -1: expected"));
+  EXPECT_THAT(said([&] {
+                face.variant("odd", {{"muscles.gain", Value::from_json("{\"zyg_R\": 0.3}")}});
+              }),
+              testing::StartsWith("variant odd: muscles.gain.zyg_R = 0.3: expected"));
+  EXPECT_THAT(said([&] {
+                FaceSession(Face{face.scan(), face.inputs().landmarks}, face.inputs().motion.motion,
+                            {{"tissue.young_kpa", -3}});
+              }),
+              testing::StartsWith("tissue.young_kpa = -3: expected"));
+}
+
+TEST(SceneSource, KeepsThePlacesOfKeysThatStay) {
+  const SceneSource first(
+      scene_of(kCoarse + kMuscles + "[[variant]]\nname = \"weak\"\ntissue.poisson = 0.4\n"));
+  const scene::Scene now = first.with_value("mesh.layers", 2).scene();
+  const auto place = [](const scene::Scene& scene, const char* key) {
+    const scene::Origin& at = scene.origins.at(key);
+    return at.file.string() + ":" + std::to_string(at.line);
+  };
+  EXPECT_EQ(place(now, "tissue.young_kpa"), place(first.scene(), "tissue.young_kpa"));
+  EXPECT_EQ(place(now, "mesh.layers"), ":0") << "no place in the file";
+  ASSERT_EQ(now.variants.size(), 1u);
+  EXPECT_EQ(place(now.variants[0].scene, "tissue.poisson"),
+            place(first.scene().variants[0].scene, "tissue.poisson"));
+  const scene::Scene other = first.with_change("weak", "tissue.poisson", 0.3).scene();
+  EXPECT_EQ(place(other.variants[0].scene, "tissue.poisson"), ":0");
+  EXPECT_EQ(place(other, "mesh.layers"), place(first.scene(), "mesh.layers"));
+}
+
 const std::string kScar =
     "[[variant]]\nname = \"scar\"\n"
     "tissue.region = [{ scar = [\"cheilion_R\", \"nowhere\"], width_mm = 8, young_factor = 5 }]\n";

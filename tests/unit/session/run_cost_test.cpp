@@ -208,6 +208,15 @@ TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
   EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.433 s of the recording"));
 }
 
+TEST(RunCost, IsAGuessWithoutLandmarks) {
+  const scene::Scene scene = embedded();
+  Inputs inputs = read_inputs(scene);
+  const auto sentence = [&] { return sentence_of(*expected_cost(scene, inputs, Extent::quick)); };
+  EXPECT_THAT(sentence(), testing::Not(testing::HasSubstr("a guess")));
+  inputs.landmarks.clear();
+  EXPECT_THAT(sentence(), testing::HasSubstr("of memory (a guess without landmarks"));
+}
+
 /// Measured on a scan from a clinic: five faces of 135 frames, no frames for ParaView, 166 MB.
 TEST(RunCost, OfAFineScanIsThatOfItsVertices) {
   scene::Scene scene = embedded();

@@ -30,13 +30,36 @@ simulate::Performance skin_moving(float first_m, float second_m) {
 TEST(RunWarnings, LipsThatPassByMoreThanHalfAMillimetre) {
   simulate::SimulationReport report;
   report.lip_overlap_mm = 0.5;
-  EXPECT_THAT(run_warnings(report, {}), ElementsAre());
+  EXPECT_THAT(run_warnings(report, {}, {}), ElementsAre());
   report.lip_overlap_mm = 0.52;
-  EXPECT_THAT(run_warnings(report, {}),
+  EXPECT_THAT(run_warnings(report, {}, {}),
               ElementsAre(is_warning("lips.pass_through", "contact.lips")));
-  EXPECT_THAT(run_warnings(report, {}),
+  EXPECT_THAT(run_warnings(report, {}, {}),
               ElementsAre(AllOf(says("0.5 mm"), says("off by at most that much"),
                                 says("contact.lips = true"))));
+}
+
+TEST(RunWarnings, SayInWhichFrameAndAdviseNothingThatIsOn) {
+  simulate::SimulationReport report;
+  report.lip_overlap_mm = 3.2;
+  report.lip_overlap_frame = 1;
+  report.inverted_tets = 100;
+  report.inverted_frame = 2;
+  simulate::Performance p;
+  p.frame_time_s = {0, 0.2, 0.4};
+  p.tets.resize(3000, 4);
+  simulate::ContactOptions contact;
+  contact.lips = true;
+  const auto of = [&](const FrameWords& words) { return run_warnings(report, p, contact, words); };
+  EXPECT_THAT(of({}), ElementsAre(AllOf(says("3.2 mm, at 0.20 s."),
+                                        testing::Not(says("contact.lips = true"))),
+                                  says("inside out at 0.40 s:")));
+  const FrameWords shape = [](int frame) { return "in the shape " + std::to_string(frame); };
+  EXPECT_THAT(of(shape), ElementsAre(says("by up to 3.2 mm, in the shape 1."),
+                                     says("inside out in the shape 2:")));
+  report.inverted_tets = 2;
+  EXPECT_THAT(notes_on_contact_and_elements(report, p, {}, shape),
+              ElementsAre(says("2 of 3000 tetrahedra turned inside out in the shape 2, too few")));
 }
 
 TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
@@ -44,16 +67,17 @@ TEST(RunWarnings, InvertedElementsCountFromOneInAThousand) {
   simulate::Performance p;
   p.tets.resize(3000, 4);
   report.inverted_tets = 3;
-  EXPECT_THAT(run_warnings(report, p), ElementsAre());
+  EXPECT_THAT(run_warnings(report, p, {}), ElementsAre());
   EXPECT_THAT(notes_on_contact_and_elements(report, p, {}),
               ElementsAre(is_note("tissue.few_inverted")));
   report.inverted_tets = 4;
-  EXPECT_THAT(run_warnings(report, p), ElementsAre(is_warning("tissue.inverted", "tissue.strain")));
-  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("4 of 3000")));
-  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("linear strain")));
+  EXPECT_THAT(run_warnings(report, p, {}),
+              ElementsAre(is_warning("tissue.inverted", "tissue.strain")));
+  EXPECT_THAT(run_warnings(report, p, {}), ElementsAre(says("4 of 3000")));
+  EXPECT_THAT(run_warnings(report, p, {}), ElementsAre(says("linear strain")));
   EXPECT_THAT(notes_on_contact_and_elements(report, p, {}), ElementsAre());
   p.model.strain = simulate::Strain::finite;
-  EXPECT_THAT(run_warnings(report, p), ElementsAre(says("these elements")));
+  EXPECT_THAT(run_warnings(report, p, {}), ElementsAre(says("these elements")));
 }
 
 TEST(GazeNotes, SayWhichEyesOfTheScanAreClosed) {
@@ -87,7 +111,7 @@ TEST(RunWarnings, TheReportsOwnNotesComeFirst) {
   simulate::SimulationReport report;
   report.notes = {{"forces.found_anew", Severity::warning, simulate::kForcesFoundAnew, ""}};
   report.lip_overlap_mm = 2;
-  EXPECT_THAT(run_warnings(report, {}),
+  EXPECT_THAT(run_warnings(report, {}, {}),
               ElementsAre(is_warning("forces.found_anew", ""),
                           is_warning("lips.pass_through", "contact.lips")));
 }
@@ -168,6 +192,9 @@ TEST(LipsThatPass, AreThoseOfVariantsThatPassFartherThanBase) {
       ElementsAre(says("v1"), says("v2"), AllOf(says("v3"), says("2.0 mm (0.0 mm in base)"))));
   EXPECT_THAT(lips_that_pass(runs, 1.35), ElementsAre(says("v3"))) << "base's own is reported once";
   EXPECT_THAT(lips_that_pass({}, 3), ElementsAre());
+  EXPECT_THAT(lips_that_pass(runs, 1.35), ElementsAre(says("contact.lips = true")));
+  runs[3].scene.contact.lips = true;
+  EXPECT_THAT(lips_that_pass(runs, 1.35), ElementsAre(testing::Not(says("contact.lips"))));
 }
 
 TEST(IdleVariants, MoveAsBaseDoesToAThousandthOfAMillimetre) {

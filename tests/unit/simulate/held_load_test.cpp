@@ -304,6 +304,37 @@ TEST(ReactionsOf, MoveItAsWhatWasPrescribed) {
   }
 }
 
+TEST(MusclesUntil, EndWithTheRun) {
+  MuscleCourse whole;
+  whole.names = {"zyg_major_L"};
+  whole.time_s = {0, 0.4, 0.8};
+  whole.activation = Eigen::MatrixXd{{0, 0.2, 0.9}};
+  whole.sigma = Eigen::MatrixXd{{0.1, 0.2, 0.3}};
+  whole.group_activation = Eigen::MatrixXd{{0, 1, 2}, {0, 3, 6}};
+  whole.jaw_opening_deg = Eigen::Vector3d(0, 4, 28);
+  const MuscleCourse at_a_sample = muscles_until(whole, 0.4);
+  EXPECT_EQ(at_a_sample.time_s, (std::vector<double>{0, 0.4}));
+  EXPECT_EQ(at_a_sample.activation, (Eigen::MatrixXd{{0, 0.2}}));
+  const MuscleCourse between = muscles_until(whole, 0.5);
+  ASSERT_EQ(between.time_s, (std::vector<double>{0, 0.4, 0.5}));
+  EXPECT_NEAR(between.activation(0, 2), 0.2 + 0.25 * 0.7, 1e-12);
+  EXPECT_NEAR(between.sigma(0, 2), 0.225, 1e-12);
+  EXPECT_NEAR(between.group_activation(1, 2), 3.75, 1e-12);
+  EXPECT_NEAR(between.jaw_opening_deg[2], 10, 1e-12);
+  EXPECT_EQ(between.prior_sigma.size(), 0) << "not known";
+  for (const double end_s : {0.8, 3.0}) {
+    EXPECT_EQ(muscles_until(whole, end_s).time_s, whole.time_s);
+    EXPECT_EQ(muscles_until(whole, end_s).activation, whole.activation);
+  }
+  HeldLoad load;
+  load.muscles = whole;
+  EXPECT_NEAR(greatest_opening_deg(load, 0.5), 10, 1e-12);
+  EXPECT_EQ(greatest_opening_deg(load, 0.8), 28);
+  load.muscles = {};
+  load.greatest_opening_deg = 7;
+  EXPECT_EQ(greatest_opening_deg(load, 0.5), 7) << "no muscles drive";
+}
+
 TEST(HardlyUsedText, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
   MuscleCourse recorded;
   recorded.names = {"zyg_major_L", "zyg_major_R"};

@@ -8,8 +8,10 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/simulate/load/muscle_load.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
 #include "simulate/small_face.hpp"
+#include "support/refusal.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -24,6 +26,23 @@ AlignedMotion smile(const io::Landmarks& landmarks, double right) {
         if (side == 0) return Vec3::Zero();
         const Vec3 way = side * 0.005 * frame.x + 0.004 * frame.y - 0.002 * frame.z;
         return course * (side > 0 ? 1 : right) * way;
+      });
+}
+
+/// That smile, which is held; from 0.7 s on the mouth opens wide.
+AlignedMotion smile_then_opening(const io::Landmarks& landmarks) {
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  const AlignedMotion smiling = smile(landmarks, 1);
+  const auto opens = [](const std::string& name) {
+    return name == "ibug68_57" || name == "ibug68_8";
+  };
+  return test::motion_of(
+      landmarks, 76, 30, [&](const std::string& name, const Vec3& rest, int k) -> Vec3 {
+        const int row = smiling.motion.index_of(name);
+        const Vec3 smiled =
+            smiling.motion.positions[std::size_t(std::min(k, 15))].row(row).transpose() - rest;
+        const double t = std::clamp((k - 21) / 20.0, 0.0, 1.0);
+        return smiled - (opens(name) ? 0.015 * t * t * (3 - 2 * t) : 0.0) * frame.y;
       });
 }
 
@@ -392,6 +411,61 @@ TEST_F(DrivenByForces, ADriveChangedIsAsOneMadeWithIt) {
     simulator.set_options(options_);
     EXPECT_EQ(apart(simulator.run(), made(options_).run()), 0);
   }
+}
+
+TEST_F(DrivenByForces, APartOfAMotionTellsNothingOfTheRest) {
+  const AlignedMotion motion = smile_then_opening(face_.landmarks);
+  options_.solver.tolerance = 1e-5;
+  const SimulationResult whole = Simulator(mesh_, face_.landmarks, motion, options_).run();
+  options_.time.end_s = 0.5;
+  const SimulationResult part = Simulator(mesh_, face_.landmarks, motion, options_).run();
+  const MuscleCourse& muscles = part.performance.muscles;
+  ASSERT_EQ(muscles.time_s.size(), 16u);
+  EXPECT_DOUBLE_EQ(muscles.time_s.back(), 0.5);
+  EXPECT_EQ(muscles.activation.cols(), 16);
+  EXPECT_EQ(muscles.sigma.cols(), 16);
+  EXPECT_EQ(muscles.prior_sigma.cols(), 16);
+  EXPECT_EQ(muscles.group_activation.cols(), 16);
+  EXPECT_EQ(muscles.jaw_opening_deg.size(), 16);
+  EXPECT_EQ(muscles.activation, whole.performance.muscles.activation.leftCols(16));
+  EXPECT_LT(part.report.greatest_opening_deg, 0.5 * whole.report.greatest_opening_deg);
+  // The face moves as before: to what the forces are compressed to.
+  const auto& frames = part.performance.skin_displacement_m;
+  ASSERT_EQ(frames.size(), 15u);
+  float off = 0;
+  for (std::size_t f = 0; f < frames.size(); ++f)
+    off = std::max(
+        off, (frames[f] - whole.performance.skin_displacement_m[f]).rowwise().norm().maxCoeff());
+  EXPECT_LT(off, 5e-5F);
+}
+
+TEST(SamplesOfRun, AreThoseOfTheRunAndOfTheCurveAtItsEnd) {
+  std::vector<double> time_s;
+  for (int k = 0; k < 76; ++k) time_s.push_back(2 + k / 30.0);
+  TimeOptions time;
+  time.step_s = 0.01;
+  EXPECT_EQ(samples_of_run(time_s, time), 76) << "no end";
+  time.end_s = 0.5;
+  EXPECT_EQ(samples_of_run(time_s, time), 19 + 16);
+  time.end_s = 2.4;
+  EXPECT_EQ(samples_of_run(time_s, time), 76);
+  time.end_s = 60;
+  EXPECT_EQ(samples_of_run(time_s, time), 76);
+}
+
+TEST_F(DrivenByForces, HeldForcesOfAPartMoveThatPartAlone) {
+  options_.time.end_s = 0.5;
+  Simulator simulator(mesh_, face_.landmarks, smile_then_opening(face_.landmarks), options_);
+  simulator.run();
+  simulator.hold_load();
+  options_.time.end_s = 0.4;
+  simulator.set_options(options_);
+  EXPECT_DOUBLE_EQ(simulator.run().performance.muscles.time_s.back(), 0.4);
+  options_.time.end_s = 0.6;
+  simulator.set_options(options_);
+  EXPECT_THAT(hyperex::test::refusal([&] { simulator.run(); }),
+              testing::HasSubstr("the held forces are those of a run of 0.5 s"));
+  EXPECT_THROW(simulator.still(0.6), InputError);
 }
 
 TEST_F(DrivenByForces, MeasuredRegionsAndStreamsAreRefused) {

@@ -93,6 +93,12 @@ class SimulatorStagesOfAFace : public testing::Test {
       }
     }
   }
+  /// Where muscles drive, the end of the run is an input of their forces.
+  static OptionCase end_of_muscles() {
+    OptionCase end = time_cases()[1];
+    end.sources.push_back("end of muscles");
+    return end;
+  }
   void expect_all_as_declared(const std::vector<OptionCase>& all) const {
     for (const OptionCase& option : all) expect_as_declared(option);
   }
@@ -154,8 +160,12 @@ TEST_F(SimulatorStagesOfAFace, WhereMusclesDriveTheOtherSectionsReachTheirStages
   options_.drive.by = DriveBy::muscles;
   expect_all_as_declared({tissue_cases()[0], support_cases()[0],
                           case_of(drive_cases(), "drive.gain"), drive_cases()[2], time_cases()[0],
-                          time_cases()[1], solver_cases()[1], solver_cases()[2],
+                          end_of_muscles(), solver_cases()[1], solver_cases()[2],
                           surgery_cases()[0]});
+  options_.time.end_s = 0.1;
+  OptionCase step = time_cases()[0];
+  step.sources.push_back("end of muscles");
+  expect_as_declared(step);
 }
 
 TEST_F(SimulatorStagesOfAFace, GainsReachWhatTheyAdd) {
@@ -174,7 +184,7 @@ TEST_F(SimulatorStagesOfAFace, GainsReachWhatTheyAdd) {
                            }},
                           tissue_cases()[0],
                           solver_cases()[2],
-                          time_cases()[1],
+                          end_of_muscles(),
                           {"drive.gain", {"drive.gain"}, [](Options& o) { o.drive.gain = 0.7; }}});
 }
 

@@ -54,6 +54,16 @@ TEST(RunStudio, AFolderIsNoMissingFile) {
   EXPECT_THAT(refusal(folder / "none.toml"), HasSubstr("no such file"));
 }
 
+TEST(StudioFolder, ForSavedFilesIsMade) {
+  const hyperex::test::TestFolder folder;
+  make_folder_for_saved_files(folder / "new" / "deep");
+  EXPECT_TRUE(fs::is_directory(folder / "new" / "deep"));
+  EXPECT_NO_THROW(make_folder_for_saved_files(folder / "new")) << "there already";
+  std::ofstream(folder / "file") << "x";
+  EXPECT_THROW(make_folder_for_saved_files(folder / "file"), InputError);
+  EXPECT_THROW(make_folder_for_saved_files(folder / "file" / "below"), InputError);
+}
+
 TEST_F(StudioSession, OpensTheRecordingInAZipAndNothingElse) {
   const fs::path uploads = folder_.path() / "own" / "uploads";
   const auto opened = [&](const std::vector<hyperex::test::Zipped>& files) {

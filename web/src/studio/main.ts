@@ -100,7 +100,8 @@ class Studio {
       this.remarks.update();
       if (source.open) this.showTransport();
     });
-    new ViewVideo(this.state, at<HTMLButtonElement>('save-video'), () => this.stage?.face ?? null, () => this.live.live);
+    new ViewVideo(this.state, at<HTMLButtonElement>('save-video'), () => this.stage?.face ?? null,
+      () => this.stage?.colours ?? null, () => this.live.live);
     const loop = at<HTMLInputElement>('loop');
     loop.addEventListener('change', () => (playback.loop = loop.checked));
     this.connection.onState((line) => this.showLine(line));

@@ -3,6 +3,8 @@
 // face, as it arrives, until it is ended. WebM, made by the browser.
 import { at } from '../page/dom';
 import { fileName, save, subject } from '../page/save';
+import type { Scale } from '../replay/face/colouring';
+import { scaleStrip, titleStrip } from '../replay/face/picture';
 import { drawSideMarks } from '../replay/face/side_marks';
 import type { FaceViewer } from '../replay/face/viewer';
 import { theme } from '../page/theme';
@@ -10,6 +12,14 @@ import { faceHue } from '../page/face_colour';
 import type { StudioState } from './studio_state';
 import { EncodedVideo, RecordedVideo, recordedType, type VideoSink } from './video_sinks';
 import { words } from './words';
+
+/** What is drawn on: the stage, and above and below it what does not change while it moves. */
+interface Sheet {
+  canvas: HTMLCanvasElement;
+  stageHeight: number;
+  above: HTMLCanvasElement | null;
+  below: HTMLCanvasElement | null;
+}
 
 const framesPerS = 30;
 const bitsPerS = 6e6;
@@ -19,7 +29,8 @@ export class ViewVideo {
 
   constructor(
     private readonly state: StudioState, private readonly button: HTMLButtonElement,
-    private readonly viewer: () => FaceViewer | null, private readonly live: () => boolean,
+    private readonly viewer: () => FaceViewer | null, private readonly colours: () => Scale | null,
+    private readonly live: () => boolean,
   ) {
     button.hidden = !recordedType() && !EncodedVideo.possible();
     button.addEventListener('click', () => {
@@ -41,13 +52,14 @@ export class ViewVideo {
     const before = { timeS: playback.timeS, playing: playback.playing };
     let ended = false;
     this.stop = () => (ended = true);
-    const canvas = this.canvas();
+    const sheet = this.sheet(true);
+    const { canvas } = sheet;
     const sink: VideoSink = (await EncodedVideo.of(canvas, bitsPerS)) ?? new RecordedVideo(canvas, bitsPerS);
     try {
       for (let frame = 0; frame < timeS.length && !ended; ++frame) {
         this.showState(words.videoFrames(frame + 1, timeS.length));
         playback.seek(timeS[frame]);
-        this.draw(canvas, viewer.snapshot(1, true));
+        this.draw(sheet, viewer.snapshot(1, true));
         await sink.add((1e3 * (timeS[frame] - timeS[0])) / playback.speed);
       }
       this.keep(await sink.end());
@@ -63,9 +75,9 @@ export class ViewVideo {
     const viewer = this.viewer();
     const type = recordedType();
     if (!viewer || !type) return;
-    const canvas = this.canvas();
-    const undraw = viewer.onDraw(() => this.draw(canvas, at<HTMLCanvasElement>('face')));
-    const recorder = new MediaRecorder(canvas.captureStream(framesPerS), { mimeType: type, videoBitsPerSecond: bitsPerS });
+    const sheet = this.sheet(false);
+    const undraw = viewer.onDraw(() => this.draw(sheet, at<HTMLCanvasElement>('face')));
+    const recorder = new MediaRecorder(sheet.canvas.captureStream(framesPerS), { mimeType: type, videoBitsPerSecond: bitsPerS });
     const parts: Blob[] = [];
     recorder.ondataavailable = ({ data }) => parts.push(data);
     recorder.onstop = () => this.keep(new Blob(parts, { type: 'video/webm' }));
@@ -80,12 +92,17 @@ export class ViewVideo {
     recorder.start();
   }
 
-  /** As large as the stage; codecs want even numbers. */
-  private canvas(): HTMLCanvasElement {
+  /** As broad as the stage; `worded`: with its title, and with the colour bar of what has one. Codecs want even
+   *  numbers. */
+  private sheet(worded: boolean): Sheet {
     const host = at('canvas-host');
     const canvas = document.createElement('canvas');
-    [canvas.width, canvas.height] = [host.clientWidth & ~1, host.clientHeight & ~1];
-    return canvas;
+    const [width, stageHeight] = [host.clientWidth & ~1, host.clientHeight & ~1];
+    const colours = worded ? this.colours() : null;
+    const above = worded ? titleStrip(subject(), width) : null;
+    const below = colours ? scaleStrip(colours, width) : null;
+    [canvas.width, canvas.height] = [width, (above?.height ?? 0) + stageHeight + (below?.height ?? 0)];
+    return { canvas, stageHeight, above, below };
   }
 
   private keep(video: Blob): void {
@@ -94,10 +111,20 @@ export class ViewVideo {
     save(video, fileName(subject(), ...named, 'webm'));
   }
 
-  /** The stage on the page's own background, with sides, names and time. */
-  private draw(canvas: HTMLCanvasElement, stage: HTMLCanvasElement): void {
+  /** The stage between its title and its colour bar. */
+  private draw({ canvas, stageHeight, above, below }: Sheet, stage: HTMLCanvasElement): void {
     const on = canvas.getContext('2d')!;
-    const { width, height } = canvas;
+    const top = above?.height ?? 0;
+    on.save();
+    on.translate(0, top);
+    this.drawStage(on, canvas.width, stageHeight, stage);
+    on.restore();
+    if (above) on.drawImage(above, 0, 0);
+    if (below) on.drawImage(below, 0, top + stageHeight);
+  }
+
+  /** The stage on the page's own background, with sides, names and time. */
+  private drawStage(on: CanvasRenderingContext2D, width: number, height: number, stage: HTMLCanvasElement): void {
     const style = getComputedStyle(document.documentElement);
     const colour = (name: string) => style.getPropertyValue(name).trim();
     on.fillStyle = colour('--card');

@@ -85,6 +85,37 @@ double common_change(const Eigen::VectorXd& change, const std::vector<int>& musc
   return common;
 }
 
+MuscleCourse muscles_until(MuscleCourse muscles, double end_s) {
+  constexpr double slack_s = 1e-9;  // of times that are written as decimals
+  std::vector<double>& time_s = muscles.time_s;
+  const auto after = std::upper_bound(time_s.begin(), time_s.end(), end_s + slack_s);
+  if (after == time_s.begin() || after == time_s.end()) return muscles;
+  const Eigen::Index kept = after - time_s.begin();
+  const double before_s = *(after - 1), share = (end_s - before_s) / (*after - before_s);
+  const Eigen::Index added = end_s - before_s > slack_s ? 1 : 0;
+  for (Eigen::MatrixXd* course :
+       {&muscles.activation, &muscles.sigma, &muscles.prior_sigma, &muscles.group_activation,
+        &muscles.group_sigma, &muscles.group_prior_sigma}) {
+    if (course->cols() <= kept) continue;  // not known
+    if (added > 0)
+      course->col(kept) = (1 - share) * course->col(kept - 1) + share * course->col(kept);
+    course->conservativeResize(Eigen::NoChange, kept + added);
+  }
+  Eigen::VectorXd& opening = muscles.jaw_opening_deg;
+  if (opening.size() > kept) {
+    if (added > 0) opening[kept] = (1 - share) * opening[kept - 1] + share * opening[kept];
+    opening.conservativeResize(kept + added);
+  }
+  time_s.resize(std::size_t(kept));
+  if (added > 0) time_s.push_back(end_s);
+  return muscles;
+}
+
+double greatest_opening_deg(const HeldLoad& load, double end_s) {
+  const Eigen::VectorXd opening = muscles_until(load.muscles, end_s).jaw_opening_deg;
+  return opening.size() > 0 ? opening.maxCoeff() : load.greatest_opening_deg;
+}
+
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options) {
   MuscleCourse out = muscles;
   if (muscles.names.empty() || (!options.mirrored && options.gains.empty())) return out;

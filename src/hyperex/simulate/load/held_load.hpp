@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -28,7 +29,9 @@ struct HeldLoad {
   /// motion which it holds (FaceParts). It fades as far as all of these fade (common_change()).
   /// Columns without such muscles, and all where this is empty, stay as they are.
   std::vector<std::vector<int>> makers;
-  double greatest_opening_deg = 0;
+  /// Where muscles drive and the motion goes on after the run: the end of the run, s.
+  double until_s = std::numeric_limits<double>::infinity();
+  double greatest_opening_deg = 0;  ///< of the jaw, by the points; muscles have their own course
   /// The nodes of the patches around driven points. At finite strain, additional forces hold them
   /// where the load puts them at small strain. The run that first needs these forces finds them.
   std::vector<int> patch_nodes;
@@ -44,6 +47,13 @@ Eigen::VectorXd muscle_gains(const std::vector<std::string>& muscles,
 /// What the changes (one per muscle) of these muscles have in common: that of the smallest size
 /// where all have the same sign, else 0. 0 for no muscle.
 double common_change(const Eigen::VectorXd& change, const std::vector<int>& muscles);
+
+/// The samples up to `end_s` (> 0, from the start of the motion). Where none is at `end_s` and the
+/// course goes on, a last one is interpolated there, linearly.
+MuscleCourse muscles_until(MuscleCourse muscles, double end_s);
+
+/// The jaw's greatest opening in a run up to `end_s`, deg.
+double greatest_opening_deg(const HeldLoad& load, double end_s);
 
 /// The activations after mirroring and gains.
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);

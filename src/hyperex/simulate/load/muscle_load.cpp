@@ -12,6 +12,7 @@
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
+#include "hyperex/simulate/drive/input_shapes.hpp"
 #include "hyperex/simulate/drive/principal_directions.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
 #include "hyperex/simulate/load/face_parts.hpp"
@@ -64,9 +65,10 @@ struct Driven {
   Eigen::Index below_nose_ = 0;
 };
 
-/// Displacements of the driven points at the samples: 3 P x samples, m.
-Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& motion, double gain) {
-  Eigen::MatrixXd out(3 * Eigen::Index(driven.rows.size()), Eigen::Index(motion.time_s.size()));
+/// Displacements of the driven points at the first samples: 3 P x `samples`, m.
+Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& motion, double gain,
+                                 Eigen::Index samples) {
+  Eigen::MatrixXd out(3 * Eigen::Index(driven.rows.size()), samples);
   for (Eigen::Index k = 0; k < out.cols(); ++k)
     out.col(k) = driven.of(gain * (motion.positions[std::size_t(k)] - motion.positions.front()));
   return out;
@@ -351,6 +353,17 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
 
 }  // namespace
 
+Eigen::Index samples_of_run(const std::vector<double>& time_s, const TimeOptions& time) {
+  // The slope of a spline depends on each further sample by 0.27 of what it does on the one before.
+  constexpr Eigen::Index of_the_curve = 16;
+  const auto all = Eigen::Index(time_s.size());
+  if (time.end_s <= 0) return all;
+  // The last step may end after end_s; drive_of() reads kBeyond more.
+  const double end_s = time_s.front() + time.end_s + (kBeyond + 1) * time.step_s;
+  const auto after = std::upper_bound(time_s.begin(), time_s.end(), end_s);
+  return std::min(all, Eigen::Index(after - time_s.begin()) + of_the_curve);
+}
+
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
                      const SimulationOptions& options, const MuscleModel& model,
@@ -364,7 +377,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   HeldLoad load;
   load.smooth_up_to_s = motion.motion.smooth_up_to_s;
   const auto count = static_cast<Eigen::Index>(model.lines().size());
-  const auto samples = static_cast<Eigen::Index>(motion.motion.time_s.size());
+  const Eigen::Index samples = samples_of_run(motion.motion.time_s, options.time);
+  if (samples < Eigen::Index(motion.motion.time_s.size())) load.until_s = options.time.end_s;
   load.wide_bands = model.wide_force().cols() > 0;
   MuscleCourse& muscle = load.muscles;
   for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
@@ -374,7 +388,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
-  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, options.drive.gain);
+  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, options.drive.gain, samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
@@ -391,7 +405,6 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
     left_over.col(k) = fitted.left_over;
   }
   muscle.time_s = load.time_s;
-  load.greatest_opening_deg = muscle.jaw_opening_deg.maxCoeff();
 
   const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));
   const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());

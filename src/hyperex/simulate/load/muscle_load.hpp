@@ -17,13 +17,18 @@ namespace hyperex::simulate {
 /// decides most activations of the mouth's muscles.
 inline constexpr int kFewPoints = 20;
 
-/// The forces that make a recorded motion in this tissue. At each sample of the motion activations
-/// and the jaw's pose are fitted to the driven points (muscle_fit.hpp). Further forces account for
-/// the residual at the points: they keep the patches of skin around the points (driven_skin) at the
-/// displacement by the muscles plus the interpolated residual. In static equilibrium, the driven
-/// points are then where prescribed patches would place them, although nothing is prescribed.
-/// `model`: muscle_model() with these options. `between` (may be empty) is called repeatedly; it
-/// may throw, which ends the computation.
+/// How many samples of a motion the forces of a run need: those up to its end (TimeOptions::end_s),
+/// and those after it that the curve through the samples depends on up to there.
+/// `time_s`: of the samples, rising, at least one.
+Eigen::Index samples_of_run(const std::vector<double>& time_s, const TimeOptions& time);
+
+/// The forces that make a recorded motion in this tissue. At each sample of the run
+/// (samples_of_run()) activations and the jaw's pose are fitted to the driven points
+/// (muscle_fit.hpp). Further forces account for the residual at the points: they keep the patches
+/// of skin around the points (driven_skin) at the displacement by the muscles plus the interpolated
+/// residual. In static equilibrium, the driven points are then where prescribed patches would place
+/// them, although nothing is prescribed. `model`: muscle_model() with these options. `between` (may
+/// be empty) is called repeatedly; it may throw, which ends the computation.
 HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                      const AlignedMotion& motion, const MeasuredRegion& region,
                      const SimulationOptions& options, const MuscleModel& model,

@@ -85,7 +85,10 @@ Readout::Lips Readout::lips(const motion::Motion& tracks, const std::vector<Poin
   each(frames.size(), [&](std::size_t f) { depth_mm[f] = 1e3 * surfaces_->depth(frames[f]); });
   Lips most;
   for (std::size_t f = 0; f < frames.size(); ++f) {
-    most.overlap_mm = std::max(most.overlap_mm, depth_mm[f]);
+    if (depth_mm[f] > most.overlap_mm) {
+      most.overlap_mm = depth_mm[f];
+      most.overlap_frame = int(f);
+    }
     most.gap_mm = std::max(most.gap_mm, gap(tracks.positions[f]) - gap(tracks.positions.front()));
   }
   return most;

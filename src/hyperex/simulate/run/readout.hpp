@@ -32,6 +32,7 @@ class Readout {
   /// distance between upper and lower lip (ibug68_62, 66) less that of the first frame.
   struct Lips {
     double overlap_mm = 0, gap_mm = 0;
+    int overlap_frame = -1;  ///< below 0: they overlap in none
   };
   /// `each(count, f)` calls f for 0 to count - 1, in parallel or not.
   using EachFrame = std::function<void(std::size_t, const std::function<void(std::size_t)>&)>;

@@ -46,10 +46,12 @@ struct SimulationReport {
   /// found other forces that reproduce the recording. The notes then include "forces.found_anew".
   bool forces_found_anew = false;
   int inverted_tets = 0;            ///< greatest number in any frame (det(I + grad u) <= 0)
+  int inverted_frame = -1;          ///< that frame; below 0: none
   double greatest_opening_deg = 0;  ///< of the jaw
-  double driven_off_mm = 0;   ///< greatest distance of any driven point from where it is driven
-  double lip_overlap_mm = 0;  ///< greatest depth of LipSurfaces: the lips in each other, over rest
-  double lip_gap_mm = 0;      ///< greatest distance between the lips (ibug68_62, 66), over rest
+  double driven_off_mm = 0;    ///< greatest distance of any driven point from where it is driven
+  double lip_overlap_mm = 0;   ///< greatest depth of LipSurfaces: the lips in each other, over rest
+  int lip_overlap_frame = -1;  ///< where that is; below 0: in none
+  double lip_gap_mm = 0;       ///< greatest distance between the lips (ibug68_62, 66), over rest
   /// All 0 where contact is off (ContactOptions). Depths are those of LipSurfaces and of
   /// ObstaclePlaces, beyond the depth of the same vertex at rest.
   struct Contact {
@@ -120,10 +122,11 @@ struct EliminationOrder {
 ///   muscle model              pattern, order, drive.by, support, tissue (not its volume), model,
 ///                             muscles (not their gains)
 ///   load was found            motion, measured region, drive (not its gain), drive.gain, muscles
-///                             (not their gains), steps of reactions
+///                             (not their gains), steps of reactions, end of muscles
 ///   load                      motion, measured region, drive (not its gain), drive.gain, muscles
 ///                             (not their gains), steps of reactions; unless held driven skin,
-///                             muscle model, pattern, support, tissue (not its volume), model
+///                             muscle model, pattern, support, tissue (not its volume), model, end
+///                             of muscles
 ///   input                     motion, boundary, moved bones, load, drive.gain, muscles.gain,
 ///                             muscles (not their gains), time.step_s, time.end_s,
 ///                             solver.tolerance
@@ -185,7 +188,8 @@ class Simulator {
   /// Where forces drive (DriveBy::muscles, reactions): keeps the forces of the last run, or of the
   /// next one where there was none, whatever tissue and support are set from now on. Copies keep
   /// them too, so that a variant shows what base's forces do. A new motion, drive or muscle (not a
-  /// gain) needs new forces.
+  /// gain) needs new forces. A run that ends later than the one that found them throws InputError
+  /// where muscles drive and the motion goes on.
   void hold_load();
 
   /// Takes the memory and the analysis of the factor of a simulator that is not needed any more.

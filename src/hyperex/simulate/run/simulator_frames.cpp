@@ -59,7 +59,9 @@ void Simulator::Impl::describe_tissue(Performance& p) {
     const auto marks = fem::inverted_tets(p.nodes, p.tets, p.node_displacement_m[f].cast<double>());
     inverted[f] = static_cast<int>(std::count(marks.begin(), marks.end(), 1));
   });
-  report.inverted_tets = *std::max_element(inverted.begin(), inverted.end());
+  const auto most = std::max_element(inverted.begin(), inverted.end());
+  report.inverted_tets = *most;
+  report.inverted_frame = *most > 0 ? int(most - inverted.begin()) : -1;
 }
 
 void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
@@ -74,7 +76,7 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
   p.driven_names = driven.names;
   p.driven_points_rest = driven.rest;
   if (stages.load.has_value()) {
-    const MuscleCourse& recorded = stages.load->muscles;
+    const MuscleCourse recorded = muscles_until(stages.load->muscles, end_s());
     p.muscles = changed_muscles(recorded, options.muscles);
     if (std::string text = hardly_used_text(recorded, options.muscles); !text.empty())
       warn("muscles.gain_hardly_used", "muscles.gain", std::move(text));
@@ -85,6 +87,7 @@ void Simulator::Impl::describe_skin(const PointCurve& points, Performance& p) {
       p.landmarks, p.skin_displacement_m,
       [this](std::size_t count, const auto& frame) { progress.for_frames(count, frame); });
   report.lip_overlap_mm = lips.overlap_mm;
+  report.lip_overlap_frame = lips.overlap_frame;
   report.lip_gap_mm = lips.gap_mm;
   // Surgery moves them away from where they were recorded.
   if (p.neutral_displacement_m.rows() == 0)

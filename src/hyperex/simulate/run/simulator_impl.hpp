@@ -75,6 +75,8 @@ struct Simulator::Impl {
   void ensure_muscle_model();
   /// Throws InputError where forces are to drive a face of which a region is measured.
   void check_no_region_is_measured() const;
+  /// Throws InputError where the run ends after the load.
+  void check_load_lasts() const;
   void ensure_load(const PointCurve& points);
   void ensure_input(const PointCurve& points);
   void ensure_obstacle_places();

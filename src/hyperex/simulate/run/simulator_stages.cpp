@@ -251,12 +251,21 @@ void Simulator::Impl::check_no_region_is_measured() const {
                      "(region.measured): expected drive.by = \"displacement\"");
 }
 
+void Simulator::Impl::check_load_lasts() const {
+  if (const double until_s = stages.load->until_s; until_s < end_s() - 1e-9)
+    throw InputError("time.end_s",
+                     fmt::format("{:g} s: the held forces are those of a run of {:g} s; expected "
+                                 "no more",
+                                 end_s(), until_s));
+}
+
 void Simulator::Impl::ensure_load(const PointCurve& points) {
-  if (stages.load.has_value() || !by_forces()) return;
+  if (!by_forces()) return;
+  if (stages.load.has_value()) return check_load_lasts();
   check_no_region_is_measured();
   const bool muscles = options.drive.by == DriveBy::muscles;
   if (muscles) ensure_muscle_model();
-  const auto samples = double(motion->motion.time_s.size());
+  const auto samples = double(samples_of_run(motion->motion.time_s, options.time));
   double fitted = 0;
   const auto sample_fitted = [&] {
     progress.report(std::max(progress.done(), kLoadDone * std::min(1.0, ++fitted / samples)));
@@ -286,7 +295,7 @@ void Simulator::Impl::ensure_input(const PointCurve& points) {
     if (by_forces())
       return std::make_shared<const InputShapes>(
           InputShapes{drive_by(on_moved_bones(stages.load.value()), options.muscles),
-                      stages.load->greatest_opening_deg});
+                      greatest_opening_deg(stages.load.value(), end_s())});
     // A boundary follows the jaw from its last position on: a copy begins at rest.
     Boundary own = stages.boundary.value();
     // The error of the compressed input must be negligible compared with the solver's tolerance.

@@ -151,6 +151,12 @@ struct SimulatorStages : StageGraph {
                                                              o.solver.tolerance)
                                            : std::make_tuple(0.0, 0.0, 0.0);
                               }};
+  /// Activations are fitted up to the end of a run, and a few steps on (samples_of_run()).
+  OptionSource muscle_end{*this, "end of muscles", [](const O& o) {
+                            return muscles_drive(o) && o.time.end_s > 0
+                                       ? std::make_tuple(o.time.end_s, o.time.step_s)
+                                       : std::make_tuple(0.0, 0.0);
+                          }};
 
   // ----- what copies share
 
@@ -169,13 +175,15 @@ struct SimulatorStages : StageGraph {
       *this, "muscle model", {pattern, order, drive_by, support, tissue, model, muscles}};
   /// Whether a load has been found for this motion, drive and muscles. A further one then is for
   /// another tissue or support.
-  Cached<bool> answered{
-      *this, "load was found", {motion, measured, drive, drive_gain, muscles, reaction_steps}};
-  Cached<HeldLoad> load{*this,
-                        "load",
-                        {motion, measured, drive, drive_gain, muscles, reaction_steps,
-                         unless_held(driven), unless_held(muscle_model), unless_held(pattern),
-                         unless_held(support), unless_held(tissue), unless_held(model)}};
+  Cached<bool> answered{*this,
+                        "load was found",
+                        {motion, measured, drive, drive_gain, muscles, reaction_steps, muscle_end}};
+  Cached<HeldLoad> load{
+      *this,
+      "load",
+      {motion, measured, drive, drive_gain, muscles, reaction_steps, unless_held(driven),
+       unless_held(muscle_model), unless_held(pattern), unless_held(support), unless_held(tissue),
+       unless_held(model), unless_held(muscle_end)}};
   Cached<InputShapes> input{
       *this,
       "input",

@@ -58,6 +58,11 @@ PointsF Simulator::Impl::step(const Points& displacement_m) {
                                              "numbers, metres",
                                              row + 1, displacement_m.rows(),
                                              motion->motion.names[std::size_t(row)]));
+  // Displacements are small beside the points' distances from the origin, save by chance.
+  if ((displacement_m - motion->rest).norm() < 0.1 * motion->rest.norm())
+    throw InputError("stream",
+                     "these are the points' places: expected displacements since rest, which are "
+                     "the places less motion.rest_m");
   if (Eigen::Index row = 0; displacement_m.rowwise().norm().maxCoeff(&row) > motion::kFarthest_m)
     throw InputError(
         "stream",

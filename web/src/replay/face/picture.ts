@@ -182,6 +182,26 @@ export function drawStageAlone(parts: StageParts, letterPx: number): HTMLCanvasE
   return pen.canvas;
 }
 
+function drawTitle(pen: Pen, title: string, most: number): void {
+  pen.text(title, margin, headHeight / 2, pen.width < 620 ? 16 : 19, pen.colour('--ink'), { weight: 650, most });
+}
+
+/** The title alone, as a picture has it above the stage. */
+export function titleStrip(title: string, width: number): HTMLCanvasElement {
+  const pen = new Pen(width, headHeight, 1);
+  pen.fill(pen.colour('--card'), 0, 0, width, headHeight);
+  drawTitle(pen, title, width - 2 * margin);
+  return pen.canvas;
+}
+
+/** The colour bar alone, as a picture has it below the stage. */
+export function scaleStrip(scale: Scale, width: number): HTMLCanvasElement {
+  const pen = new Pen(width, barHeight + (scale.remark ? remarkHeight : 0), 1);
+  pen.fill(pen.colour('--card'), 0, 0, width, pen.height);
+  drawScale(pen, scale, 0);
+  return pen.canvas;
+}
+
 /** From the top: title and time, the stage, the text of each face, the foot. Nothing covers a face. */
 export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   const { stage, scale, faces } = parts;
@@ -199,10 +219,10 @@ export function drawPicture(parts: PictureParts): HTMLCanvasElement {
   pen.fill(pen.colour('--card'), 0, 0, pen.width, pen.height);
   drawStage(pen, parts, headHeight);
 
-  const [ink, soft] = [pen.colour('--ink'), pen.colour('--ink-soft')];
+  const soft = pen.colour('--ink-soft');
   pen.on.font = `400 14px ${family}`;
   const timeWidth = pen.on.measureText(parts.time).width;
-  pen.text(parts.title, margin, headHeight / 2, width < 620 ? 16 : 19, ink, { weight: 650, most: width - 3 * margin - timeWidth });
+  drawTitle(pen, parts.title, width - 3 * margin - timeWidth);
   pen.text(parts.time, width - margin, headHeight / 2, 14, soft, { align: 'right' });
   captions.forEach((caption, i) => drawCaption(pen, caption, margin + i * column, captionTop, most));
   if (captions.length > 0) pen.fill(pen.colour('--line'), margin, footTop - 0.5, width - 2 * margin, 1);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stage: the face in 3D and the controls around it.
 import { drawColourBar } from './colour_bar';
-import { colouringsOf, type Colouring, type Painting } from './colouring';
+import { colouringsOf, type Colouring, type Painting, type Scale } from './colouring';
 import type { Face, Replay } from '../data';
 import { at, element } from '../../page/dom';
 import { Undoing } from '../../page/listeners';
@@ -76,6 +76,11 @@ export class Stage {
   /** The face in 3D; null where the browser has no WebGL. */
   get face(): FaceViewer | null {
     return this.viewer;
+  }
+
+  /** The colour scale of what is shown; null where the face has its own colours. */
+  get colours(): Scale | null {
+    return this.painting.scale;
   }
 
   /** Whether the page may begin to play by itself. What the processor draws is coarse while it moves, and a reader may
