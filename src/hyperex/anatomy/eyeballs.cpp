@@ -67,8 +67,7 @@ Shift best_shift(const std::vector<Eye>& eyes, const Vec3& up) {
     for (int above = 0; above <= steps; ++above) {
       const Shift shift{aside * step_m, above * step_m};
       double gain_m = -price_to_nose * shift.to_nose_m - price_up * shift.up_m;
-      for (const Eye& eye : eyes)
-        gain_m += forward_m(eye, shift.of(eye, up)) / double(eyes.size());
+      for (const Eye& eye : eyes) gain_m += forward_m(eye, shift.of(eye, up)) / double(eyes.size());
       if (gain_m <= most_m + least_gain_m) continue;
       most_m = gain_m;
       best = shift;
