@@ -14,25 +14,65 @@ namespace {
 
 using Eigen::Index;
 
-Eyeball eyeball_between(const Vec3& outer, const Vec3& inner, const Vec3& forward,
-                        const Points& skin) {
-  constexpr double radius_per_width = 0.4, clearance_m = 4e-4, farthest_back_m = 8e-3;
-  const Vec3 middle = (outer + inner) / 2;
-  const double width_m = (outer - inner).norm();
-  Eyeball eye{Vec3::Zero(), forward, radius_per_width * width_m};
-  // The ball's front bulges before the line of the corners by a sixth of the width.
-  const Vec3 start = middle - (eye.radius_m - width_m / 6) * forward;
-  double back_m = 0;
-  for (Index v = 0; v < skin.rows(); ++v) {
-    const Vec3 off = skin.row(v).transpose() - start;
+constexpr double kRadiusPerWidth = 0.4, kClearance_m = 4e-4;
+constexpr double kFarthestBack_m = 8e-3, kFarthestForward_m = 2.5e-3;
+
+/// An eye before its ball has its place.
+struct Eye {
+  Eyeball ball;  ///< with the front before the line of the corners by a sixth of their distance
+  Vec3 to_nose;  ///< unit length
+  Points lids;   ///< the skin about it
+};
+
+Eye eye_between(const Vec3& outer, const Vec3& inner, const Vec3& to_nose, const Vec3& forward,
+                const Points& skin) {
+  const double width_m = (outer - inner).norm(), radius_m = kRadiusPerWidth * width_m;
+  const Vec3 centre = (outer + inner) / 2 - (radius_m - width_m / 6) * forward;
+  std::vector<Index> near;
+  for (Index v = 0; v < skin.rows(); ++v)
+    if ((skin.row(v).transpose() - centre).norm() < 2 * radius_m) near.push_back(v);
+  return {{centre, forward, radius_m}, to_nose, skin(near, Eigen::all)};
+}
+
+/// How far forward the lids let the ball come if its centre is shifted first; 0 without lids.
+double forward_m(const Eye& eye, const Vec3& shift) {
+  const Vec3& forward = eye.ball.gaze;
+  const double reach = eye.ball.radius_m + kClearance_m;
+  double room_m = INFINITY;
+  for (Index v = 0; v < eye.lids.rows(); ++v) {
+    const Vec3 off = eye.lids.row(v).transpose() - eye.ball.centre - shift;
     const double along = off.dot(forward), across = (off - along * forward).norm();
-    const double reach = eye.radius_m + clearance_m;
     // Only what lies before the ball: the wall of an eye's socket may be as near as it will.
-    if (across >= reach || along < 0.35 * eye.radius_m) continue;
-    back_m = std::max(back_m, std::sqrt(reach * reach - across * across) - along);
+    if (across >= reach || along < 0.35 * eye.ball.radius_m) continue;
+    room_m = std::min(room_m, along - std::sqrt(reach * reach - across * across));
   }
-  eye.centre = start - std::min(back_m, farthest_back_m) * forward;
-  return eye;
+  if (!std::isfinite(room_m)) return 0;
+  return std::clamp(room_m, -kFarthestBack_m, kFarthestForward_m);
+}
+
+/// A shift towards the nose and up that both eyes share, so that they stay alike.
+struct Shift {
+  double to_nose_m = 0, up_m = 0;
+
+  Vec3 of(const Eye& eye, const Vec3& up) const { return to_nose_m * eye.to_nose + up_m * up; }
+};
+
+/// The shift that brings the balls farthest forward, less its price.
+Shift best_shift(const std::vector<Eye>& eyes, const Vec3& up) {
+  constexpr int steps = 6;
+  constexpr double step_m = 2.5e-4, price_to_nose = 0.3, price_up = 0.4, least_gain_m = 1e-9;
+  Shift best;
+  double most_m = -INFINITY;
+  for (int aside = 0; aside <= steps; ++aside)
+    for (int above = 0; above <= steps; ++above) {
+      const Shift shift{aside * step_m, above * step_m};
+      double gain_m = -price_to_nose * shift.to_nose_m - price_up * shift.up_m;
+      for (const Eye& eye : eyes) gain_m += forward_m(eye, shift.of(eye, up)) / double(eyes.size());
+      if (gain_m <= most_m + least_gain_m) continue;
+      most_m = gain_m;
+      best = shift;
+    }
+  return best;
 }
 
 }  // namespace
@@ -55,11 +95,20 @@ std::optional<FaceCorners> face_corners(const io::Landmarks& landmarks) {
 }
 
 std::vector<Eyeball> eyeballs_behind(const Points& skin, const FaceCorners& corners) {
+  if (!corners.inner[0] || !corners.inner[1]) return {};
+  const Vec3 left = (corners.outer[1] - corners.outer[0]).normalized();
+  const Vec3 up = corners.forward.cross(left).normalized();
+  std::vector<Eye> eyes;
+  for (std::size_t side = 0; side < 2; ++side)
+    eyes.push_back(eye_between(corners.outer[side], *corners.inner[side], side == 0 ? left : -left,
+                               corners.forward, skin));
+  const Shift shift = best_shift(eyes, up);
   std::vector<Eyeball> eyeballs;
-  if (corners.inner[0] && corners.inner[1])
-    for (std::size_t side = 0; side < 2; ++side)
-      eyeballs.push_back(
-          eyeball_between(corners.outer[side], *corners.inner[side], corners.forward, skin));
+  for (const Eye& eye : eyes) {
+    const Vec3 aside = shift.of(eye, up);
+    eyeballs.push_back(eye.ball);
+    eyeballs.back().centre += aside + forward_m(eye, aside) * corners.forward;
+  }
   return eyeballs;
 }
 

@@ -30,8 +30,10 @@ struct Eyeball {
 /// Right and left, behind `skin` (vertices at rest, metres); none without inner corners. The radius
 /// is 0.4 of the distance of the eye's corners (an adult's is 12 mm, behind an opening of some 30
 /// mm). The ball is as far forward as a distance of 0.4 mm from all vertices of the lids allows.
-/// Its front is at most a sixth of the corners' distance in front of the line between the corners,
-/// and at most 8 mm behind that position.
+/// Its front is at most 2.5 mm before, and at most 8 mm behind, a sixth of the corners' distance in
+/// front of the line between them. Where the skin beside an eye would keep it back, it makes way:
+/// both balls shift by up to 1.5 mm towards the nose and 1.5 mm up, if each millimetre brings them
+/// forward by 0.3 (to the nose) or 0.4 mm (up) or more. So no single vertex decides.
 std::vector<Eyeball> eyeballs_behind(const Points& skin, const FaceCorners& corners);
 
 }  // namespace hyperex::anatomy

@@ -117,7 +117,7 @@ std::vector<Eigen::VectorXf> light_on_eyes(const std::vector<anatomy::Eyeball>& 
   const Eigen::VectorXf light = render::sky_share(skin, places, normals);
   std::vector<Eigen::VectorXf> out;
   for (std::size_t i = 0; i < eyes.size(); ++i)
-    out.emplace_back(light.segment(each * Index(i), each));
+    out.emplace_back(light.segment(each * Index(i), each).cwiseMax(kLeastEyeLight));
   return out;
 }
 

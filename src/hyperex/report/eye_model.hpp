@@ -35,8 +35,13 @@ std::vector<anatomy::Eyeball> turned(std::vector<anatomy::Eyeball> eyes,
 /// In its place on the face, metres.
 TriMesh placed_eye(const anatomy::Eyeball& eye);
 
-/// For each vertex of placed_eye() of each eye, the share (0 to 1) of the light from all directions
-/// that reaches it between the lids. `skin`: at rest.
+/// The lids at rest take no more light than this leaves: what they cover then shows when they rise
+/// or the eye turns.
+inline constexpr float kLeastEyeLight = 0.5F;
+
+/// For each vertex of placed_eye() of each eye, the share of the light from all directions that
+/// reaches it between the lids, from kLeastEyeLight to 1. `skin`: at rest. The page, the studio and
+/// the model all use it.
 std::vector<Eigen::VectorXf> light_on_eyes(const std::vector<anatomy::Eyeball>& eyes,
                                            const TriMesh& skin);
 

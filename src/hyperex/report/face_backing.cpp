@@ -44,12 +44,24 @@ bool is_eye(const std::vector<int>& loop, const Points& points, const FaceCorner
   return is_at_eye(loop, points, corners, 0) || is_at_eye(loop, points, corners, 1);
 }
 
-/// Between the outer corners of the eyes, seen from the front: not where a scan is torn at its rim.
+/// Between the outer corners of the eyes, seen from the front.
 bool in_the_face(const std::vector<int>& loop, const Points& points, const FaceCorners& corners) {
   const Vec3 centre = centre_of(loop, points);
   const Vec3 across = corners.outer[1] - corners.outer[0];
   const double share = (centre - corners.outer[0]).dot(across) / across.squaredNorm();
   return share > 0 && share < 1;
+}
+
+/// A hole of the scan beside that, as on a cheek: it faces forward and is not torn at the scan's
+/// rim.
+bool on_a_cheek(const std::vector<int>& loop, const Vec3& outward, const std::vector<int>& border,
+                const Points& points, const FaceCorners& corners) {
+  constexpr double torn_within_m = 0.01, faces = 0.3;
+  if (outward.dot(corners.forward) < faces * outward.norm()) return false;
+  const Points rim = points(border, Eigen::all);
+  return std::ranges::all_of(loop, [&](int v) {
+    return (rim.rowwise() - points.row(v)).rowwise().norm().minCoeff() > torn_within_m;
+  });
 }
 
 Vec3 up_of(const Opening& opening, const FaceCorners& corners) {
@@ -117,12 +129,13 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
   const auto border = std::max_element(length_m.begin(), length_m.end()) - length_m.begin();
   std::vector<Opening> openings;
   for (std::size_t i = 0; i < loops.size(); ++i) {
-    if (std::ptrdiff_t(i) == border || length_m[i] > longest_m || loops[i].size() < 3 ||
-        !in_the_face(loops[i], skin.points, corners))
-      continue;
+    if (std::ptrdiff_t(i) == border || length_m[i] > longest_m || loops[i].size() < 3) continue;
     Vec3 outward = Vec3::Zero();
     for (const int v : loops[i]) outward += normals.row(v).transpose();
     outward /= double(loops[i].size());
+    if (!in_the_face(loops[i], skin.points, corners) &&
+        !on_a_cheek(loops[i], outward, loops[std::size_t(border)], skin.points, corners))
+      continue;
     // The edge of a lip is rolled in; the face's own direction keeps the pocket behind it.
     openings.push_back({loops[i], -(corners.forward + 0.5 * outward).normalized(),
                         std::min(0.03, 0.25 * length_m[i])});

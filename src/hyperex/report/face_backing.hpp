@@ -54,8 +54,9 @@ struct FaceBacking {
 /// is put behind the skin if the outer corners of the eyes or the corners of the mouth are missing.
 /// Eyeballs (anatomy::eyeballs_behind()) also need the inner corners of the eyes. The openings are
 /// all closed borders of at most 250 mm whose middle lies between the outer corners of the eyes,
-/// except the longest border, which is the outer one. `teeth`: the lining of the mouth leaves room
-/// for them; null: for average rows (mouth_lining.hpp).
+/// except the longest border, which is the outer one. Beside the eyes they are those that face
+/// forward and lie more than 10 mm from the outer border. `teeth`: the lining of the mouth leaves
+/// room for them; null: for average rows (mouth_lining.hpp).
 FaceBacking face_backing(const TriMesh& skin, const io::Landmarks& landmarks,
                          const anatomy::Teeth* teeth = nullptr);
 /// The landmarks of the first sample; none where there is no sample.

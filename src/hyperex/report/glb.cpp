@@ -130,8 +130,7 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   if (!options.backing) made = face_backing(performance, options.teeth);
   const FaceBacking& backing = made ? *made : *options.backing;
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, !performance.gaze.empty(),
-           nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
   if (options.teeth) {
     add_teeth(model, arrays, *options.teeth, backing.forward, nodes);
     place_upper_teeth(model.nodes[std::size_t(nodes.upper_teeth)],

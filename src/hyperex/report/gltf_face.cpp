@@ -116,16 +116,15 @@ void begin_face(tinygltf::Model& model) {
 }
 
 void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,
-              const TriMesh& skin, bool turning, FaceNodes& nodes) {
+              const TriMesh& skin, FaceNodes& nodes) {
   if (eyeballs.empty()) return;
-  const float least_light = turning ? 0.5F : 0.0F;
   const EyeModel& eye = eye_model();
   const int material = static_cast<int>(model.materials.size());
   model.materials.push_back(plain_material("eye", {1, 1, 1, 1}, 0.12));
   const std::vector<Eigen::VectorXf> lights = light_on_eyes(eyeballs, skin);
   for (std::size_t side = 0; side < eyeballs.size(); ++side) {
     const Eyeball& ball = eyeballs[side];
-    const Eigen::VectorXf light = lights[side].cwiseMax(least_light);
+    const Eigen::VectorXf& light = lights[side];
     render::VertexColours colours = eye.colours;
     for (Index v = 0; v < colours.rows(); ++v)
       for (int k = 0; k < 3; ++k)

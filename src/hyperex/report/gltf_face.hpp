@@ -44,10 +44,10 @@ void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
                         const Points& at_rest, const PoseTargets& targets,
                         const std::vector<Eigen::Isometry3d>& jaws);
 
-/// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes.
-/// `turning`: the shade would turn with the eyes, so it takes at most half of the light.
+/// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes
+/// (light_on_eyes()), and that shade turns with them.
 void add_eyes(tinygltf::Model& model, GltfArrays& arrays, const std::vector<Eyeball>& eyeballs,
-              const TriMesh& skin, bool turning, FaceNodes& nodes);
+              const TriMesh& skin, FaceNodes& nodes);
 
 /// Nodes upper_teeth and lower_teeth with crowns and gum, the lower one with the tongue too.
 /// `forward`: the direction in which the face looks; parts farther back are darker.

@@ -131,7 +131,7 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
     add_pocket_targets(skin.primitives[1], arrays, backing.openings, rest.points, cavity.points,
                        targets, jaws);
   FaceNodes nodes;
-  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, true, nodes);
+  add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
   if (teeth) {
     anatomy::Teeth about = *teeth;
     for (TriMesh* part : {&about.lower.crowns, &about.lower.gum, &about.tongue})

@@ -84,8 +84,7 @@ std::shared_ptr<const anatomy::Teeth> teeth_of(const scene::Scene& scene, const 
           "teeth.average",
           fmt::format(
               "average teeth (scale {:.2f}{}) were fitted behind the lips, edges {:.1f} mm behind "
-              "the "
-              "middle of the lips' inner sides; teeth.upper and teeth.lower read scans of teeth",
+              "the line where the lips meet; teeth.upper and teeth.lower read scans of teeth",
               fit.size.scale,
               fit.size.breadth < 1 ? fmt::format(", arches {:g} of their breadth", fit.size.breadth)
                                    : "",

@@ -41,6 +41,48 @@ TEST(FaceBacking, FindsEyesAndMouthOfTheEmbeddedFaceAndNotItsBorder) {
   }
 }
 
+/// The embedded face with a hole of 8 mm about the vertex that is seen nearest to a place.
+TriMesh with_a_hole(const Vec3& place) {
+  TriMesh mesh = embedded().mesh;
+  Eigen::Index nearest = 0;
+  (mesh.points.leftCols<2>().rowwise() - place.head<2>().transpose())
+      .rowwise()
+      .squaredNorm()
+      .minCoeff(&nearest);
+  const Points all = mesh.points;
+  Eigen::Index count = 0;
+  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
+    bool inside = true;
+    for (int k = 0; k < 3; ++k)
+      inside = inside && (all.row(mesh.triangles(t, k)) - all.row(nearest)).norm() < 0.008;
+    if (!inside) mesh.triangles.row(count++) = embedded().mesh.triangles.row(t);
+  }
+  mesh.triangles.conservativeResize(count, 3);
+  return mesh;
+}
+
+TEST(FaceBacking, BacksAHoleOfTheCheekBesideTheEyes) {
+  const auto& landmarks = embedded().landmarks;
+  const Vec3 beside = landmarks.at("cheek_R") + Vec3(-0.018, -0.002, 0);
+  ASSERT_LT(beside.x(), landmarks.at("ibug68_36").x()) << "not between the outer corners";
+  const TriMesh skin = with_a_hole(beside);
+  const FaceBacking backing = face_backing(skin, landmarks);
+  ASSERT_EQ(backing.openings.size(), 4u);
+  const Points normals = vertex_normals(skin);
+  for (const Opening& hole : backing.openings) {
+    if (skin.points(hole.loop.front(), 0) > landmarks.at("ibug68_36").x()) continue;
+    Vec3 outward = Vec3::Zero();
+    for (const int v : hole.loop) outward += normals.row(v).transpose().normalized();
+    const auto n = Eigen::Index(hole.loop.size());
+    for (Eigen::Index i = n; i < hole.rest.rows(); ++i)
+      EXPECT_LT((hole.rest.row(i) - hole.rest.row(i % n)).dot(outward.transpose()), 0)
+          << "behind the skin";
+  }
+  // At the temple, 8 mm from the border, a scan may be torn.
+  const Vec3 at_border = landmarks.at("ibug68_36") + Vec3(-0.0225, 0.020, 0);
+  EXPECT_EQ(face_backing(with_a_hole(at_border), landmarks).openings.size(), 3u);
+}
+
 TEST(FaceBacking, KnowsWhichEyesAreOpen) {
   const auto& face = embedded();
   FaceBacking backing = face_backing(face.mesh, face.landmarks);

@@ -103,6 +103,7 @@ TEST_F(TeethOfAFace, AreAverageOnesNoneOrTheUsersOwn) {
   EXPECT_FALSE(average->lower.empty());
   ASSERT_EQ(notes_.size(), 1u);
   EXPECT_THAT(notes_[0], AllOf(test::is_note("teeth.average"), test::is_about("teeth.shape")));
+  EXPECT_THAT(notes_[0].text, HasSubstr("mm behind the line where the lips meet"));
 
   inputs_.teeth.upper.crowns = box(false);
   const auto mixed = teeth_of(scene, inputs_, mesh_, notes_);

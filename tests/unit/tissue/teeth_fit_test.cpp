@@ -87,6 +87,22 @@ TEST(FitTeeth, StandsUprightInTheMiddle) {
   EXPECT_NEAR(lower_edge, frame.local(landmarks.at(face::ibug(66))).y() + 0.0005, 1e-3);
 }
 
+TEST(FitTeeth, SaysHowFarBehindTheLipsTheEdgesAre) {
+  const auto& [landmarks, mesh, fit] = Fitted::get();
+  const face::FaceFrame frame = face::face_frame(landmarks);
+  const Points upper = frame.local_points(fit.teeth.upper.crowns.points);
+  Vec3 edge(0, 1, 0);  // the lowest vertex of the right central incisor
+  for (Eigen::Index f = 0; f < fit.teeth.upper.crowns.triangles.rows(); ++f)
+    if (const Vec3 p = upper.row(fit.teeth.upper.crowns.triangles(f, 0));
+        fit.teeth.upper.tooth[std::size_t(f)] == 11 && p.y() < edge.y())
+      edge = p;
+  const double meet = std::min(frame.local(landmarks.at(face::ibug(62))).z(),
+                               frame.local(landmarks.at(face::ibug(66))).z());
+  EXPECT_NEAR(meet - edge.z(), fit.behind_lips_m, 1.5e-3);
+  // The edge of the upper lip's red is before that line: the whole lip lies between it and a tooth.
+  EXPECT_GT(frame.local(landmarks.at(face::ibug(51))).z(), meet + 1e-3);
+}
+
 TEST(FitTeeth, FollowsTheFace) {
   const auto& [landmarks, mesh, fit] = Fitted::get();
   const Eigen::Matrix3d turn =

@@ -13,7 +13,8 @@ struct TeethFit {
   Teeth teeth;  ///< empty where `why_none` gives a reason
   std::string why_none;
   ArchSize size;
-  double behind_lips_m = 0;      ///< upper incisors' edges behind the lips' inner mid-points
+  double behind_lips_m = 0;      ///< upper incisors' edges behind the line where the lips meet: the
+                                 ///< rear one of ibug68_62 and 66, on the skin, level in the face
   double least_clearance_m = 0;  ///< of any vertex to the inner surface of lips and cheeks
 };
 

@@ -6,10 +6,15 @@ import { OrbitControls } from 'three/examples/jsm/controls/OrbitControls.js';
 export type View = 'front' | 'three-quarter' | 'left' | 'right';
 
 const yawDegrees: Record<View, number> = { front: 0, 'three-quarter': 38, left: 90, right: -90 };
+/** How far the camera is above the middle of the face, as a share of its distance. From in front it is level, as in the
+ *  program's pictures. */
+const rise: Record<View, number> = { front: 0, 'three-quarter': 0.04, left: 0.04, right: 0.04 };
 const radians = (degrees: number) => (degrees * Math.PI) / 180;
 
 export class ViewCamera {
-  readonly camera = new PerspectiveCamera(24, 1, 0.01, 10);
+  // The camera stands 0.8 m or more before a face, as for a portrait. From nearer the mouth is seen from above: the upper
+  // lip then hides the front teeth, and lower molars show.
+  readonly camera = new PerspectiveCamera(14, 1, 0.01, 10);
   readonly controls: OrbitControls;
   private readonly centre = new Vector3();
   private readonly size = new Vector3();
@@ -31,7 +36,7 @@ export class ViewCamera {
 
   lookFrom(view: View): void {
     const yaw = radians(yawDegrees[view]);
-    const from = new Vector3(Math.sin(yaw), 0.04, Math.cos(yaw)).normalize();
+    const from = new Vector3(Math.sin(yaw), rise[view], Math.cos(yaw)).normalize();
     this.camera.position.copy(this.centre).addScaledVector(from, this.distance(from));
     this.controls.target.copy(this.centre);
     this.update();
