@@ -166,8 +166,7 @@ std::string unpulled_lines(const Json& variant) {
     const auto letter = side.get<std::string>();
     lines += fmt::format(
         "    no muscle pulls on the {}: its corner moves by no strength of its own, but by the "
-        "jaw, "
-        "the other side, and forces that no muscle explains{}\n",
+        "jaw and the other side{}\n",
         letter == "R" ? "right" : "left", jaw_sentence(variant, letter));
   }
   return lines;

@@ -13,10 +13,11 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/drive/input_shapes.hpp"
-#include "hyperex/simulate/drive/principal_directions.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
 #include "hyperex/simulate/load/face_parts.hpp"
+#include "hyperex/simulate/load/fitted_course.hpp"
 #include "hyperex/simulate/load/holding_forces.hpp"
+#include "hyperex/simulate/load/left_over.hpp"
 #include "hyperex/simulate/load/muscle_fit.hpp"
 #include "hyperex/simulate/load/muscle_model.hpp"
 #include "hyperex/simulate/load/muscle_prior.hpp"
@@ -24,9 +25,6 @@
 
 namespace hyperex::simulate {
 namespace {
-
-/// Allowed error of the compressed residual at the points, as a share of the greatest residual.
-constexpr double kLeftOverLost = 1e-4;
 
 /// The points that drive.
 struct Driven {
@@ -169,88 +167,6 @@ Eigen::VectorXd tissue_shares(const MuscleModel& model, bool few, const MuscleOp
 std::vector<int> united(const std::vector<int>& a, const std::vector<int>& b) {
   std::vector<int> out;
   std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(out));
-  return out;
-}
-
-/// Names the groups of each side, in the template's order; 1 where a muscle (column) is in a group.
-Eigen::MatrixXd name_groups(const std::vector<muscles::MuscleLine>& lines,
-                            const muscles::MuscleTable& table, std::vector<std::string>& groups) {
-  Eigen::MatrixXd members = Eigen::MatrixXd::Zero(0, static_cast<Eigen::Index>(lines.size()));
-  for (std::size_t m = 0; m < lines.size(); ++m) {
-    const std::string name = table[std::size_t(lines[m].row)].group + (lines[m].left ? "_L" : "_R");
-    const auto at = std::find(groups.begin(), groups.end(), name) - groups.begin();
-    if (at == static_cast<std::ptrdiff_t>(groups.size())) {
-      groups.push_back(name);
-      members.conservativeResize(members.rows() + 1, Eigen::NoChange);
-      members.bottomRows<1>().setZero();
-    }
-    members(at, static_cast<Eigen::Index>(m)) = 1;
-  }
-  return members;
-}
-
-void resize(MuscleCourse& course, Eigen::Index muscles, Eigen::Index groups, Eigen::Index samples) {
-  course.group_activation.resize(groups, samples);
-  course.group_sigma.resize(groups, samples);
-  course.group_prior_sigma.resize(groups, samples);
-  course.activation.resize(muscles, samples);
-  course.sigma.resize(muscles, samples);
-  course.prior_sigma.resize(muscles, samples);
-  course.jaw_opening_deg.resize(samples);
-}
-
-/// The activations of a sample with their standard deviations. `members`: of name_groups().
-void store_sample(const FitResult& fitted, const Eigen::MatrixXd& members, Eigen::Index sample,
-                  MuscleCourse& course) {
-  const auto sigmas = [](const Eigen::MatrixXd& covariance) {
-    return Eigen::VectorXd(covariance.diagonal().cwiseSqrt());
-  };
-  course.activation.col(sample) = fitted.activation;
-  course.sigma.col(sample) = sigmas(fitted.covariance);
-  course.prior_sigma.col(sample) = sigmas(fitted.prior_covariance);
-  course.group_activation.col(sample) = members * fitted.activation;
-  course.group_sigma.col(sample) = sigmas(members * fitted.covariance * members.transpose());
-  course.group_prior_sigma.col(sample) =
-      sigmas(members * fitted.prior_covariance * members.transpose());
-}
-
-/// Orthonormal directions of the columns, as many as matter: of more than `least`.
-Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns, double least) {
-  const PrincipalDirections all = principal_directions(columns);
-  Eigen::Index kept = 0;
-  while (kept < all.sizes.size() && all.sizes[kept] > std::max(least, 1e-9)) ++kept;
-  return all.directions.leftCols(kept);
-}
-
-/// `columns` (3 n x k) times one number per place.
-Eigen::MatrixXd scaled_places(const Eigen::VectorXd& numbers, const Eigen::MatrixXd& columns) {
-  return numbers.replicate(1, 3).transpose().reshaped().asDiagonal() * columns;
-}
-
-/// What the fit leaves over at the points, divided among the parts of the face.
-struct DividedLeftOver {
-  Eigen::MatrixXd directions;  ///< 3 P x k, orthonormal within a part
-  Eigen::MatrixXd course;      ///< k x samples, m
-  std::vector<Eigen::Index> part;
-};
-
-/// `shares`: of FaceParts at the points.
-DividedLeftOver divided(const Eigen::MatrixXd& left_over, const Eigen::MatrixXd& shares) {
-  DividedLeftOver out;
-  out.directions.resize(left_over.rows(), 0);
-  out.course.resize(0, left_over.cols());
-  const PrincipalDirections whole = principal_directions(left_over);
-  const double least = whole.sizes.size() > 0 ? kLeftOverLost * whole.sizes[0] : 0;
-  for (Eigen::Index part = 0; part < shares.cols(); ++part) {
-    const Eigen::MatrixXd own = scaled_places(shares.col(part), left_over);
-    const Eigen::MatrixXd directions = directions_of(own, least);
-    const Eigen::Index from = out.directions.cols();
-    out.directions.conservativeResize(Eigen::NoChange, from + directions.cols());
-    out.directions.rightCols(directions.cols()) = directions;
-    out.course.conservativeResize(from + directions.cols(), Eigen::NoChange);
-    out.course.bottomRows(directions.cols()) = directions.transpose() * own;
-    out.part.insert(out.part.end(), std::size_t(directions.cols()), part);
-  }
   return out;
 }
 
@@ -409,8 +325,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));
   const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());
   const std::vector<std::vector<int>> makers = parts.makers(of_points);
-  const DividedLeftOver rest = divided(left_over, parts.shares(of_points));
-  add_makers(rest.part, makers, load);
+  const LeftOver rest = divided(left_over, parts.shares(of_points));
+  add_makers(rest.parts, makers, load);
   load.course.resize(course.rows() + rest.course.rows(), samples);
   load.course << course, rest.course;
   HeldShape held =

@@ -157,7 +157,7 @@ function unpulledWords(row: VariantRow | undefined): string {
   const unpulled: unknown = row?.unpulled_sides;
   if (!Array.isArray(unpulled)) return '';
   return sides.filter((side) => unpulled.includes(letterOf[side])).map((side) => {
-    return `No muscle pulls on the ${side}: its corner moves by no strength of its own, but by the jaw, the other side, and forces that no muscle explains.${jawSentence(row, side)}`;
+    return `No muscle pulls on the ${side}: its corner moves by no strength of its own, but by the jaw and the other side.${jawSentence(row, side)}`;
   }).join(' ');
 }
 
