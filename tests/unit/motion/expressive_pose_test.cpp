@@ -283,11 +283,9 @@ double greatest_shift_of_mouth_mm(const StabilisedMotion& stable, const Motion& 
 }
 
 /// Disgust: the bridge of the nose goes up by 1.4 mm, its wings by 8 mm, the upper lip by 9 mm, and
-/// the brows down by 4 mm, while the head turns. Hardly any landmark stands still. Over six draws
-/// of the noise a port of the fit to another language gave up to 0.81 degrees and 2.0 mm at the
-/// mouth. All points alike gave 0.81 to 0.84 degrees and 3.0 to 3.3 mm. So the turn is not
-/// compared. The bounds lie about 40 % above. The stated uncertainty, which is to hold for 95 % of
-/// expressions, does not hold for this one: the error was up to 1.4 times as large.
+/// the brows down by 4 mm, while the head turns. Hardly any landmark stands still. With modes of
+/// one person's recording alone, which hardly wrinkles the nose, the mouth was off by up to 2.0 mm
+/// and the error 1.4 times the stated bound.
 TEST(ExpressivePose, AWrinkledNoseShiftsTheMouthLessThanAFitOfAllPoints) {
   const std::map<std::string, double> weights = {{"noseSneer_L", 0.9},    {"noseSneer_R", 0.9},
                                                  {"browDown_L", 0.6},     {"browDown_R", 0.6},
@@ -305,9 +303,11 @@ TEST(ExpressivePose, AWrinkledNoseShiftsTheMouthLessThanAFitOfAllPoints) {
     const StabilisedMotion stable = stabilise(motion);
     const Errors errors = errors_of(stable, motion, true);
     const double mouth_mm = greatest_shift_of_mouth_mm(stable, motion);
-    EXPECT_LT(errors.turn_deg, 1.15);
-    EXPECT_LT(errors.beyond, 1.9);
-    EXPECT_LT(mouth_mm, 2.8);
+    std::printf("disgust: %.2f degrees, mouth %.2f mm; error over bound %.2f\n", errors.turn_deg,
+                mouth_mm, errors.beyond);
+    EXPECT_LT(errors.turn_deg, 0.75);
+    EXPECT_LT(errors.beyond, 1);
+    EXPECT_LT(mouth_mm, 1.7);
     EXPECT_LT(mouth_mm, greatest_shift_of_mouth_mm(stabilise(motion, {motion.names, 0}), motion));
   }
 }
