@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text beside S(t): the millimetres of the corners, and a remark where S and the millimetres disagree about which
 // of two faces is more symmetric.
-import { apartMm, cornersOf, mm } from '../corners';
+import { apartMm, bothRecorded, cornersOf, mm } from '../corners';
 import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
 import type { Shown } from '../shown';
@@ -17,7 +17,7 @@ const leastForRatioMm = 0.5;
 /** "a difference of 0.5 mm, right/left 95 %": of the corners' largest distances from rest. Empty where these are not known. */
 function plainFigure(replay: Replay, face: number): string {
   const corners = cornersOf(replay, face);
-  if (!corners) return '';
+  if (!corners || !bothRecorded(corners)) return '';
   const { leftMm, rightMm } = corners;
   const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, right/left ${(100 * rightMm / leftMm).toFixed(0)} %` : '';
   return `a difference of ${mm(apartMm(corners))}${ratio}`;
@@ -43,7 +43,7 @@ function largestS(replay: Replay, face: number): number | null {
 function disagree(replay: Replay, a: number, b: number): { symmetric: number; other: number } | null {
   const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
   const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
-  if (sA === null || sB === null || !cornersA || !cornersB) return null;
+  if (sA === null || sB === null || !cornersA || !cornersB || !bothRecorded(cornersA) || !bothRecorded(cornersB)) return null;
   if (cornersA.undecided && cornersB.undecided) return null;
   const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));
   const byMm = Number((apartMm(cornersA) - apartMm(cornersB)).toFixed(1));
