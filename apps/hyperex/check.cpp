@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "hyperex/core/kept_results.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/scene/scene.hpp"
@@ -17,25 +18,29 @@ void add_check(CLI::App& program) {
   struct CheckOptions {
     std::filesystem::path scene;
     std::vector<std::string> overrides;
-    bool no_variants = false;
+    bool no_variants = false, no_cache = false;
   };
   auto options = std::make_shared<CheckOptions>();
   CLI::App* command =
       program.add_subcommand("check",
-                             "Check a scene and the files it names, and report every problem. The "
-                             "tissue is meshed, nothing is tracked or simulated; what was not "
-                             "checked is listed");
+                             "Check a scene and the files it names, and report every problem. "
+                             "Landmarks are found where none are named, and the tissue is meshed; "
+                             "nothing is tracked or simulated; what was not checked is listed");
   command->add_option("SCENE", options->scene, "Scene file (docs/scene.md)")->required();
   command->add_option("--set", options->overrides, "Override a key of the scene; can be repeated")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false);
   command->add_flag("--no-variants", options->no_variants,
                     "Check the scene without its variants, as hyperex run --no-variants runs it");
+  command->add_flag("--no-cache", options->no_cache,
+                    "Find landmarks and make the mesh again. Without this option, those of the "
+                    "same program on the same files are taken and kept, as hyperex run does");
   command->footer("Example: hyperex check examples/demo.toml");
   command->callback([options] {
     std::string cost;
     scene::Scene scene = scene::read_scene(options->scene, options->overrides);
     if (options->no_variants) scene.variants.clear();
+    if (!options->no_cache) scene.kept = KeptResults(user_cache_folder());
     take_library_memory();
     const std::vector<Note> found = session::check(scene, &cost);
     const std::vector<std::string> warnings = texts_of(found, Severity::warning);

@@ -2,6 +2,7 @@
 #include "hyperex/io/landmarks.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <filesystem>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "commands.hpp"
+#include "hyperex/anatomy/scan_doubts.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
@@ -50,6 +52,10 @@ void run(const LandmarksOptions& options) {
   if (found.without_colours)
     std::cerr << fmt::format("{}: its colours hide the face, which was found without them\n",
                              printable(options.scan.string()));
+  for (const std::optional<std::string>& doubt :
+       {anatomy::flat_problem(found.landmarks),
+        anatomy::half_missing(found.landmarks, found.landmarks, scan.mesh)})
+    if (doubt) spdlog::warn("{}: {}", options.scan.string(), *doubt);
   if (!options.picture.empty())
     render::write_png(options.picture, tracking::draw_scan_landmarks(
                                            scan.mesh, colours, found,

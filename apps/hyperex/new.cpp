@@ -21,6 +21,7 @@
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
+#include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/run_cost.hpp"
 
@@ -91,6 +92,16 @@ int vtu_every_of(const scene::Scene& scene) {
   }
 }
 
+/// What a check would say of the recording by itself: the scene is written all the same, so that it
+/// can be corrected there or with the recording.
+void add_doubts_of_sides(const motion::Motion& points, std::vector<std::string>& doubts) {
+  try {
+    for (const Note& doubt : session::check_alone(points)) doubts.push_back(doubt.text);
+  } catch (const InputError& error) {
+    doubts.emplace_back(error.what());
+  }
+}
+
 void write_scene(const std::string& scan, const std::string& motion, fs::path to) {
   const auto refuse_missing = [](const char* what, const std::string& path) {
     if (path != "embedded" && !fs::exists(path))
@@ -120,8 +131,9 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   std::vector<std::string> doubts;
   if (made.motion_key == "motion.file" && motion != "embedded") {
     const motion::Motion points = motion::read_motion(motion);
-    made.rigid_points = motion::proposed_rigid_points(points);
+    made.rigid_points = motion::rigid_points_to_name(points);
     doubts = session::doubts_of_names(points, made.rigid_points);
+    add_doubts_of_sides(points, doubts);
   }
   // Throws before anything is written.
   made.vtu_every = vtu_every_of(scene::read_scene_text(scene::new_scene_text(made), to));

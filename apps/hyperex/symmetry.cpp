@@ -124,6 +124,14 @@ void report_still_points(const std::vector<std::string>& names) {
               << "; --rigid-points names others, --keep-head keeps the head in\n";
 }
 
+/// Says which points of the skull are there and do not count, as the user did not name them.
+void report_unused_still_points(const motion::StabilisedMotion& steady) {
+  const std::vector<std::string> still = motion::still_points_beside_landmarks(steady);
+  if (!still.empty())
+    std::cerr << motion::unused_still_points_sentence(still) << "; --rigid-points "
+              << fmt::format("{}", fmt::join(still, ",")) << " uses them\n";
+}
+
 /// Without --rigid-points, the pose is that of the face's landmarks, or of the points that the
 /// recording itself shows to be still. Where there are neither, the head stays in.
 motion::StabilisedMotion without_head(const motion::Motion& motion,
@@ -139,10 +147,12 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
   }
   const std::vector<std::string> still = motion::proposed_rigid_points(motion);
   motion::TriedPose tried = motion::try_stabilise(motion, still, "--rigid-points");
-  if (tried.why_not.empty())
-    report_still_points(still);
-  else
+  if (!tried.why_not.empty())
     std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
+  else if (still.empty())
+    report_unused_still_points(tried.steady);
+  else
+    report_still_points(still);
   return std::move(tried.steady);
 }
 

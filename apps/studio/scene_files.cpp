@@ -97,7 +97,7 @@ std::string moved_by(const std::string& text, const fs::path& recording) {
   const std::string key = scene::recording_key(recording);
   const std::string moved = scene::with_value(text, key, fs::absolute(recording).string());
   if (key != "motion.file") return moved;
-  const auto rigid = motion::proposed_rigid_points(motion::read_motion(recording));
+  const auto rigid = motion::rigid_points_to_name(motion::read_motion(recording));
   return rigid.empty() ? moved : scene::with_value(moved, "motion.rigid_points", rigid);
 }
 

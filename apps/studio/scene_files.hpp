@@ -15,9 +15,9 @@ std::string embedded_scene();
 /// The contents of "smile_arkit.csv".
 std::string_view embedded_smile();
 
-/// The scene `text`, which names no motion yet, moved by a recording. If a recording of points
-/// lacks the usual points for the head pose, the scene names the points found to be still
-/// (motion::proposed_rigid_points). Throws InputError where such a recording cannot be read.
+/// The scene `text`, which names no motion yet, moved by a recording. Where a recording of points
+/// shows points that are still as those of the skull are, the scene names them
+/// (motion::rigid_points_to_name). Throws InputError where such a recording cannot be read.
 std::string moved_by(const std::string& text, const std::filesystem::path& recording);
 /// The scene moved by another recording. Options of the previous recording are removed; the face
 /// and all other options stay.

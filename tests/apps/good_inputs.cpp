@@ -9,6 +9,7 @@
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
 
@@ -80,6 +81,43 @@ void keep_mouth_and_headband(motion::Motion& m) {
           whole.positions[k].row(whole.index_of(from));
     m.names.push_back(to);
   }
+}
+
+void leave_out(motion::Motion& m, const std::vector<std::string>& names) {
+  for (const std::string& name : names) {
+    const int row = m.index_of(name);
+    if (row < 0) throw std::logic_error("the motion has no " + name);
+    const auto below = Eigen::Index(m.names.size()) - row - 1;
+    m.names.erase(m.names.begin() + row);
+    for (Points& sample : m.positions) {
+      Points left(sample.rows() - 1, 3);
+      left << sample.topRows(row), sample.bottomRows(below);
+      sample = left;
+    }
+  }
+}
+
+void add_headband(motion::Motion& m) {
+  // The opening moves nothing of the upper face but the head.
+  const std::vector<std::string> still = {"ibug68_17", "ibug68_19", "ibug68_21", "ibug68_22",
+                                          "ibug68_24", "ibug68_26", "ibug68_27"};
+  const auto rows_of_still = [&](const Points& sample) {
+    Points some(Eigen::Index(still.size()), 3);
+    for (std::size_t i = 0; i < still.size(); ++i)
+      some.row(Eigen::Index(i)) = sample.row(m.index_of(still[i]));
+    return some;
+  };
+  const Points rest = rows_of_still(m.positions.front());
+  Points band = rest.topRows(6);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    band.row(i) += Eigen::RowVector3d(0, 0.03 + 0.005 * double(i % 3), -0.01);
+  for (Points& sample : m.positions) {
+    const Eigen::Isometry3d head = fit_rigid(rest, rows_of_still(sample));
+    sample.conservativeResize(sample.rows() + 6, Eigen::NoChange);
+    for (Eigen::Index i = 0; i < 6; ++i)
+      sample.row(sample.rows() - 6 + i) = (head * Vec3(band.row(i).transpose())).transpose();
+  }
+  for (int i = 1; i <= 6; ++i) m.names.push_back("head_" + std::to_string(i));
 }
 
 void write_good_inputs(const fs::path& folder) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <vector>
 
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
@@ -25,6 +26,12 @@ void write_opening(
 /// Keeps seven points of the mouth and chin, and six of a headband, called head_1 to head_6. A
 /// change for write_opening().
 void keep_mouth_and_headband(motion::Motion& m);
+
+/// Takes points away, which must be there. A change for write_opening().
+void leave_out(motion::Motion& m, const std::vector<std::string>& names);
+
+/// Adds six points of a headband, head_1 to head_6, to the landmarks. A change for write_opening().
+void add_headband(motion::Motion& m);
 
 TriMesh good_face();             ///< metres
 io::Landmarks good_landmarks();  ///< metres

@@ -11,6 +11,7 @@
 #include "apps/program.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/face_session.hpp"
+#include "support/half_face.hpp"
 #include "support/note_matchers.hpp"
 
 namespace hyperex {
@@ -48,6 +49,39 @@ TEST_F(LandmarksCommand, WritesLandmarksInTheScansUnit) {
   EXPECT_EQ(files(), 3);
 }
 
+TEST_F(LandmarksCommand, PrintsNoControlCharacters) {
+  write_mm(in("a\x1b[31m.ply"), good_face());
+  for (const char* arguments : {"landmarks 'a\x1b[31m.ply' --out 'l\x1b[31m.json' --picture "
+                                "'p\x1b[31m.png'",
+                                "landmarks 'gone\x1b[31m.ply' --out l.json"}) {
+    const Outcome outcome = call(arguments);
+    EXPECT_EQ((outcome.out + outcome.err).find('\x1b'), std::string::npos)
+        << outcome.out << outcome.err;
+  }
+  EXPECT_TRUE(fs::exists(in("l\x1b[31m.json")));
+}
+
+TEST_F(LandmarksCommand, WarnsOfAScanOfHalfAFace) {
+  write_mm(in("half.ply"), test::half_face(good_face(), true));
+  const Outcome found = call("landmarks half.ply --out l.json --unit mm");
+  EXPECT_EQ(found.status, 0) << found.err;
+  EXPECT_THAT(found.err,
+              HasSubstr("half.ply: the right half of the face is missing from the scan"));
+  // A scene of it is refused, before and by a run.
+  write_good_inputs(in(""));
+  fs::rename(in("half.ply"), in("face.ply"));
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  for (const char* arguments : {"check scene.toml", "run scene.toml --out out"}) {
+    const Outcome refused = call(arguments);
+    EXPECT_EQ(refused.status, 2) << arguments;
+    EXPECT_THAT(problems_in(refused.err),
+                testing::ElementsAre(HasSubstr("face.ply: the right half of the face is missing")));
+  }
+  write_mm(in("whole.ply"), good_face());
+  EXPECT_THAT(call("landmarks whole.ply --out l.json --unit mm").err,
+              testing::Not(HasSubstr("is missing")));
+}
+
 TEST_F(LandmarksCommand, RefusesInOneLineAndLeavesNothing) {
   TriMesh sheet = good_face();
   sheet.points.col(2) *= 0.02;  // a flattened face, on which no face is found
@@ -74,11 +108,39 @@ TEST_F(LandmarksCommand, ASceneWithoutLandmarksHasThemFound) {
   replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(session::check(scene::read_scene(in("scene.toml"))),
-              testing::Contains(test::is_note("landmarks.not_searched")));
+  EXPECT_THAT(checked.out, testing::AllOf(HasSubstr("the scene names no landmarks: 92 were found"),
+                                          HasSubstr("aligned by ")));
+  EXPECT_THAT(
+      session::check(scene::read_scene(in("scene.toml")), nullptr, session::CheckDepth::inputs),
+      testing::Contains(test::is_note("landmarks.not_searched")));
   const Outcome run = call("run scene.toml --out out");
   EXPECT_EQ(run.status, 0) << run.err;
   EXPECT_THAT(text_of("landmarks.found"), HasSubstr("92"));
+}
+
+/// Another person's recording: a check sees it, and meshes the face, without a file of landmarks.
+TEST_F(LandmarksCommand, ACheckJudgesTheFitByFoundLandmarks) {
+  write_good_inputs(in(""));
+  replace_in(in("scene.toml"), "landmarks = \"face_landmarks.json\"\n", "");
+  write_opening(in(""), 0, 16, [](motion::Motion& m) {
+    for (Points& at : m.positions) at *= 1.2;
+  });
+  const Outcome checked = call("check scene.toml");
+  EXPECT_EQ(checked.status, 0) << checked.err;
+  EXPECT_THAT(checked.out, testing::AllOf(HasSubstr("warning: the recording fits the scan badly"),
+                                          HasSubstr("but ")));
+  // What a run would refuse of the landmarks and the mesh, a check refuses.
+  const Outcome wrong = call("check scene.toml --set 'drive.still_points=[\"antenna\"]'");
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("antenna"));
+  EXPECT_EQ(call("check scene.toml --set mesh.element_size_mm=30").status, 2);
+  const std::string cached = "export XDG_CACHE_HOME='" + in("cache").string() + "'";
+  const auto err = [&](const char* more) {
+    return call(std::string("check scene.toml ") + more, cached).err;
+  };
+  EXPECT_THAT(err(""), testing::Not(HasSubstr("using the landmarks")));
+  EXPECT_THAT(err(""), HasSubstr("using the landmarks that an earlier run"));
+  EXPECT_THAT(err("--no-cache"), testing::Not(HasSubstr("using the landmarks")));
 }
 
 TEST_F(LandmarksCommand, AMeshWithoutLandmarksHasThemFound) {

@@ -85,6 +85,35 @@ TEST_F(NewCommand, NamesTheStillPointsOfAFileThatHasItsOwn) {
   EXPECT_THAT(aligned.out, HasSubstr("aligned by 7 common points"));
 }
 
+/// Landmarks of the face give a pose; points of the skull give a better one.
+TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
+  write_opening(in(""), 0, 41, add_headband);
+  const Outcome made = call("new face.ply motion.csv --out me.toml");
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string scene = read_file(in("me.toml"));
+  EXPECT_THAT(scene, HasSubstr("rigid_points = [\"head_1\", \"head_2\", \"head_3\", "
+                               "\"head_4\", \"head_5\", \"head_6\"]"));
+  EXPECT_THAT(scene, HasSubstr("# These keep their distances from each other"));
+  // A scene without them is told of them, and so are those without a scene.
+  const std::string sentence =
+      "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
+      "as points of the skull do, and are not used; ";
+  EXPECT_THAT(call("check scene.toml").out,
+              HasSubstr(sentence + "name them in motion.rigid_points"));
+  const Outcome symmetry = call("symmetry motion.csv --jitter-mm 0");
+  EXPECT_THAT(symmetry.err, HasSubstr(sentence + "--rigid-points head_1,head_2,head_3,head_4,"
+                                                 "head_5,head_6 uses them"));
+  put(in("v.toml"),
+      "patient = \"P\"\n[[visit]]\ndate = 2026-03-01\nrecording = \"motion.csv\"\n"
+      "jitter_mm = 0\n");
+  EXPECT_THAT(call("visits v.toml").err,
+              HasSubstr(sentence + "name them in rigid_points of the visits"));
+  for (const std::string& used :
+       {call("check me.toml --set scan.landmarks=face_landmarks.json").out,
+        call("symmetry motion.csv --jitter-mm 0 --rigid-points head_1,head_2,head_3").err})
+    EXPECT_THAT(used, testing::Not(HasSubstr("are not used")));
+}
+
 TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
   const auto made_of = [&](const std::string& name, const auto& change) {
     write_opening(in(""), 0, 16, [&](motion::Motion& m) {
@@ -111,6 +140,25 @@ TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
                       }),
               testing::AllOf(HasSubstr("shares 0 point names with the scan's landmarks"),
                              HasSubstr("did you mean ibug68_48 by right mouth corner?")));
+}
+
+/// The scene is written all the same: the recording may be corrected.
+TEST_F(NewCommand, WarnsOfExchangedSides) {
+  write_opening(in(""), 0, 16, [](motion::Motion& m) {
+    for (Points& at : m.positions) at.col(0) *= -1;
+  });
+  const Outcome made = call("new face.ply motion.csv --out me.toml");
+  EXPECT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.err, testing::AllOf(HasSubstr("warning: "),
+                                       HasSubstr("motion.csv: left and right are exchanged: the "
+                                                 "points are ")));
+  EXPECT_TRUE(std::filesystem::exists(in("me.toml")));
+  const Outcome checked = call("check me.toml");
+  EXPECT_EQ(checked.status, 2);
+  EXPECT_THAT(checked.err, HasSubstr("motion.csv: left and right are exchanged: the points are "));
+  write_opening(in(""), 0, 16);
+  EXPECT_THAT(call("new face.ply motion.csv --out right.toml").err,
+              testing::Not(HasSubstr("exchanged")));
 }
 
 /// Weights of a blink alone, through a new scene and a run, to closed lids.

@@ -2,6 +2,7 @@
 // `hyperex visits` as a user calls it.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "apps/malformed.hpp"
@@ -84,6 +85,19 @@ TEST_F(Visits, LeaveOutAWildReadingAndSaySo) {
   const io::TextTable sound = io::read_text_table(in("sound.csv")),
                       mended = io::read_text_table(in("v.csv"));
   ASSERT_EQ(mended.rows.size(), sound.rows.size());
+  const auto value_of = [](const io::TextTable& of, std::size_t row) {
+    const auto column = std::ranges::find(of.names, "value") - of.names.begin();
+    return std::stod(of.rows[row][std::size_t(column)]);
+  };
+  const auto unit = std::size_t(std::ranges::find(sound.names, "unit") - sound.names.begin());
+  std::size_t lengths = 0;
+  for (std::size_t row = 0; row < sound.rows.size(); ++row) {
+    ASSERT_EQ(mended.rows[row][1], sound.rows[row][1]);
+    if (sound.rows[row][unit] != "mm") continue;
+    ++lengths;
+    EXPECT_NEAR(value_of(mended, row), value_of(sound, row), 0.2) << sound.rows[row][1];
+  }
+  EXPECT_GT(lengths, 5u);
 }
 
 TEST_F(Visits, WarnOfJitterThatIsNotKnown) {

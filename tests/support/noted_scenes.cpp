@@ -171,6 +171,12 @@ void enlarge_the_motion(const fs::path& folder) {
   });
 }
 
+void lose_a_corner(const fs::path& folder) {
+  write_opening(folder, 0, 16, [](motion::Motion& m) {
+    leave_out(m, {"cheilion_R", face::ibug(48), face::ibug(60)});
+  });
+}
+
 void displace_a_marker(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (Points& sample : m.positions) sample(m.index_of(face::ibug(54)), 1) += 0.02;
@@ -243,6 +249,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.mirror_unknown", true, "motion.file=\nmotion.recording=\"clip.mp4\"",
        write_video},
       {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
+      {"recording.one_sided", true, "drive.points=\"all\"", lose_a_corner},
       {"recording.coarse", true, "", time_at_3_hz},
       {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.jumps", true, "", let_a_marker_stay_away},
@@ -324,7 +331,6 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"sides.doubtful", "CheckAlone.SidesThatAreExchangedLessSurelyAreAWarning"},
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
-      {"scan.half_missing", "InputNotes.NameAScanOfHalfAFace"},
       {"scan.flat", "InputNotes.NameAScanWithoutDepth"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
       {"variant.left_out", "StudioSessionWithWrongVariants.OpensAllElseAndSaysWhatIsLeftOut"},

@@ -68,6 +68,18 @@ test('the uncertainty of the head’s pose stands below the headline, where it e
   await small.close();
 });
 
+test('a corner that is not recorded has no figure, and nothing compares the two', async () => {
+  const { page, complaints, close } = await changedPage((data) => {
+    const [both] = pair(6.2, 6.2);
+    data.summary.symmetry = { excursions: [{ ...both, excursion_mm: { R: null, L: 6.2 }, undecided: null, recorded: { R: false, L: true } }] };
+  });
+  assert.match(await page.locator('#headline').textContent(), /right not recorded, left 6\.2 mm: a difference of the sides is not known/);
+  assert.match(await page.locator('.corners .floor').textContent(), /The recording shows one corner alone/);
+  assert.doesNotMatch(await page.locator('.corners').textContent(), /NaN/);
+  assert.deepEqual(complaints, []);
+  await close();
+});
+
 test('a saved picture shows figures below the faces, with their limits, and no number leaves its unit', async () => {
   const { page, close } = await changedPage((data) => {
     uncertainHead(data);

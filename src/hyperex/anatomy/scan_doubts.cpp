@@ -84,27 +84,6 @@ OffScan off_scan(HalfFace half, const Similarity& scan_from_canonical, const Sur
   return count;
 }
 
-std::optional<Note> half_missing_warning(const io::Landmarks& given, const TriMesh& scan) {
-  std::optional<SurfaceTree> tree;
-  for (const HalfFace half : kHalves) {
-    const std::optional<Similarity> laid = laid_by(half, given);
-    if (!laid) continue;
-    if (!tree) tree.emplace(scan);
-    const HalfFace other = other_half(half);
-    const OffScan missing = off_scan(other, *laid, *tree);
-    if (missing.share() <= kMissingShare || off_scan(half, *laid, *tree).share() > kStrayShare)
-      continue;
-    return make_warning(
-        "scan.half_missing",
-        fmt::format("the {0} half of the face is missing from the scan: by the landmarks of the "
-                    "{1} half, {2} of {3} named places of the subject's {0} side lie more than "
-                    "{4:.0f} mm off its surface; landmarks placed there are at its border",
-                    word_of_half(other), word_of_half(half), missing.off, missing.named,
-                    1e3 * kOffScan_m));
-  }
-  return std::nullopt;
-}
-
 /// Between the outer corners, which are known.
 double between_eyes_m(const io::Landmarks& landmarks) {
   return (*face::find_place(landmarks, "exocanthion_L") -
@@ -114,6 +93,28 @@ double between_eyes_m(const io::Landmarks& landmarks) {
 
 }  // namespace
 
+std::optional<std::string> half_missing(const io::Landmarks& given, const io::Landmarks& all,
+                                        const TriMesh& scan) {
+  const std::optional<double> nose = nose_before_plane(all);
+  if (nose && *nose < kLeastNoseOfHalves) return std::nullopt;
+  std::optional<SurfaceTree> tree;
+  for (const HalfFace half : kHalves) {
+    const std::optional<Similarity> laid = laid_by(half, given);
+    if (!laid) continue;
+    if (!tree) tree.emplace(scan);
+    const HalfFace other = other_half(half);
+    const OffScan missing = off_scan(other, *laid, *tree);
+    if (missing.share() <= kMissingShare || off_scan(half, *laid, *tree).share() > kStrayShare)
+      continue;
+    return fmt::format(
+        "the {0} half of the face is missing from the scan: by the landmarks of the {1} half, {2} "
+        "of {3} named places of the subject's {0} side lie more than {4:.0f} mm off its surface; "
+        "expected a scan of both halves",
+        word_of_half(other), word_of_half(half), missing.off, missing.named, 1e3 * kOffScan_m);
+  }
+  return std::nullopt;
+}
+
 std::optional<double> nose_before_plane(const io::Landmarks& landmarks) {
   const std::optional<face::FaceFrame> frame = face::face_frame_of_corners(landmarks);
   const std::optional<Vec3> nose = face::find_place(landmarks, "pronasale");
@@ -121,13 +122,9 @@ std::optional<double> nose_before_plane(const io::Landmarks& landmarks) {
   return frame->local(*nose).z() / between_eyes_m(landmarks);
 }
 
-std::vector<Note> scan_doubts(const io::Landmarks& given, const io::Landmarks& all,
-                              const TriMesh& scan) {
-  if (const auto flat = flat_problem(all)) return {make_warning("scan.flat", *flat)};
-  const std::optional<double> nose = nose_before_plane(all);
-  if (nose && *nose < kLeastNoseOfHalves) return {};
-  if (const auto missing = half_missing_warning(given, scan)) return {*missing};
-  return {};
+std::optional<Note> flat_warning(const io::Landmarks& landmarks) {
+  const std::optional<std::string> flat = flat_problem(landmarks);
+  return flat ? std::optional(make_warning("scan.flat", *flat)) : std::nullopt;
 }
 
 std::optional<std::string> half_missing_problem(const std::map<std::string, double>& off_m) {

@@ -3,7 +3,6 @@
 #include <map>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "hyperex/core/note.hpp"
 #include "hyperex/geometry/types.hpp"
@@ -24,18 +23,20 @@ inline constexpr double kFlattestNose = 0.15;
 /// of the five places is not known.
 std::optional<double> nose_before_plane(const io::Landmarks& landmarks);
 
-/// Warnings where a scan does not show a whole face. `given`: the landmarks that a person set or
-/// the program found on the scan; `all`: with those that complete_landmarks added; m.
-///  * `scan.half_missing`: by the landmarks of one side and of the midline, the canonical face is
-///    laid on the scan. At most 10 % of the places that it names on this side lie farther than
-///    kOffScan_m from the scan, and more than 60 % of those on the other side. This takes four
-///    places well off one line. By 4 to 12 landmarks drawn from those of seven scans, 7,500 times,
-///    the other side's share was at most 38 %. On these scans cut along the midline it was above
-///    60 % in 99.9 %. Scans whose nose_before_plane() is below 0.3 are not judged: half a face
-///    laid on a shallow scan turns, so that the other half leaves it.
-///  * `scan.flat`: nose_before_plane() is below kFlattestNose.
-std::vector<Note> scan_doubts(const io::Landmarks& given, const io::Landmarks& all,
-                              const TriMesh& scan);
+/// A sentence where a scan shows half of a face; else nothing. `given`: the landmarks that a person
+/// set or the program found on the scan; `all`: with those that complete_landmarks added; m. By the
+/// landmarks of one side and of the midline, the canonical face is laid on the scan. At most 10 %
+/// of the places that it names on this side lie farther than kOffScan_m from the scan, and more
+/// than 60 % of those on the other side. This takes four places well off one line. By 4 to 12
+/// landmarks drawn from those of seven scans, 7,500 times, the other side's share was at most 38 %.
+/// On these scans cut along the midline it was above 60 % in 99.9 %. Scans whose
+/// nose_before_plane() is below 0.3 are not judged: half a face laid on a shallow scan turns, so
+/// that the other half leaves it.
+std::optional<std::string> half_missing(const io::Landmarks& given, const io::Landmarks& all,
+                                        const TriMesh& scan);
+
+/// `scan.flat`: flat_problem(), as a warning.
+std::optional<Note> flat_warning(const io::Landmarks& landmarks);
 
 /// A sentence where landmarks of one side, two or more and at least 60 % of those given, lie
 /// farther than kOffScan_m from the scan, and all others lie on it; else nothing. The other side

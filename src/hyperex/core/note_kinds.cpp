@@ -26,10 +26,6 @@ constexpr NoteKind kKinds[] = {
   warning("scan.turned_triangles", "scan.file",
     "At more than 2 % of the edges between two of the scan's triangles both run the same way, so "
     "that one of them is turned inside out."),
-  warning("scan.half_missing", "scan.file",
-    "By the landmarks of one half of the face, more than 60 % of the named places of the other "
-    "half lie more than 15 mm off the scan. Where landmarks of that half are given, the scan is "
-    "refused."),
   warning("scan.flat", "scan.file",
     "The tip of the nose stands before the plane of the corners of eyes and mouth by less than "
     "0.15 of the distance between the outer corners of the eyes. On the faces measured it is 0.31 "
@@ -82,6 +78,9 @@ constexpr NoteKind kKinds[] = {
   warning("recording.side_missing", "motion.arkit",
     "A table of weights has no column for a shape of one side whose counterpart exceeds 0.05; it "
     "counts as 0. This is a warning only where another shape has both sides."),
+  warning("recording.one_sided", "motion.file",
+    "One corner of the mouth is recorded, and the other is not. A run simulates that side from what "
+    "is usual; it gives no figures of that corner, and none that compare the two."),
   warning("recording.coarse", "motion.file",
     "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
   warning("recording.shapes_lost", "motion.arkit",
@@ -176,7 +175,8 @@ constexpr NoteKind kKinds[] = {
   note("landmarks.found", "scan.landmarks",
     "The scene names no landmarks; they were found in pictures of the scan."),
   note("landmarks.not_searched", "scan.landmarks",
-    "`hyperex check` does not search for landmarks; it names what it could not check."),
+    "Landmarks are not searched for before a study or where a size is estimated; what could not be "
+    "checked is named."),
   note("landmarks.unknown", "scan.landmarks", "Landmarks have names that are not known."),
   note("recording.expressions", "motion", "What was assumed or left out in reading expressions."),
   note("recording.tracked", "motion.recording", "In how many frames a face was tracked."),
@@ -206,12 +206,13 @@ constexpr NoteKind kKinds[] = {
     "The recorded points show no jitter, or the recording is too short to show it."),
   note("head.pose_uncertain", "motion.rigid_points",
     "The head's position is uncertain by 1 to 3 mm (95 %)."),
+  note("head.still_points_unused", "motion.rigid_points",
+    "The head's pose is that of the face's landmarks, and points beside them are still as those of "
+    "the skull: they keep their distances to 0.2 mm and twice their jitter."),
   note("tissue.matched_by_place", "tissue.per_vertex",
     "Values per vertex are in another order than the scan's vertices and were matched by place."),
   note("tissue.values_averaged", "tissue.per_vertex",
     "Several vertices of a file with different values lie at one vertex of the scan."),
-  note("tissue.regions_unchecked", "tissue.region",
-    "Without landmarks `hyperex check` does not check where the regions of the tissue lie."),
   note("mesh.unchecked", "mesh.element_size_mm",
     "`hyperex check` makes no mesh of more than 40,000 nodes, nor of a scan of more than 300,000 "
     "vertices: it does not check what a run finds on it."),

@@ -77,6 +77,8 @@ struct PairExcursion {
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
   KnownNoise known;  ///< the floors contain only the noise that is known
+  /// False: a run simulated this point, and its recording does not show it (recorded_sides.hpp).
+  bool left_recorded = true, right_recorded = true;
 
   double difference_mm() const { return left_side.excursion_mm - right_side.excursion_mm; }
   /// All floors together, as independent errors: the root of the sum of their squares.
@@ -88,8 +90,9 @@ struct PairExcursion {
   void judge() { undecided = floor_mm() > 0 && !(std::abs(difference_mm()) >= floor_mm()); }
   /// Whether a figure is decided. `below_floor`: `undecided`, `path_undecided` and so on. False
   /// below the floors, true above them. Nothing above them if some noise is not known, as the
-  /// figure may be that noise.
+  /// figure may be that noise. Nothing where one side is not known, or recorded alone.
   std::optional<bool> decided(bool below_floor) const {
+    if (left_recorded != right_recorded || std::isnan(difference_mm())) return std::nullopt;
     if (below_floor) return false;
     return known.all() ? std::optional<bool>(true) : std::nullopt;
   }

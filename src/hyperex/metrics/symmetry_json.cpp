@@ -30,6 +30,7 @@ Json floor_json(bool known, double floor) {
 Json pair_json(const PairExcursion& p) {
   Json json;
   json["point"] = p.name;
+  json["recorded"] = {{"R", p.right_recorded}, {"L", p.left_recorded}};
   json["excursion_mm"] = both(p.left_side.excursion_mm, p.right_side.excursion_mm);
   json["excursion_ratio_R_L"] = number(p.excursion_ratio);
   json["path_mm"] = both(p.left_side.path_mm, p.right_side.path_mm);
@@ -60,7 +61,7 @@ Json curve_json(const SymmetryCurve& curve) {
   Json json;
   json["jitter_mm"] = 1e3 * curve.jitter_m;
   json["S_most"] = number(curve.s[most]);
-  json["S_most_at_s"] = curve.time_s[most];
+  json["S_most_at_s"] = curve.known() ? Json(curve.time_s[most]) : Json(nullptr);
   const std::vector<double> floors = curve.floors();
   json["S_floor_there"] = floors.empty() ? Json(nullptr) : number(std::log(floors[most]));
   json["undecided_samples"] = undecided;

@@ -46,6 +46,7 @@ size_t largest_difference(const SymmetryCurve& curve) {
 std::string verdict_of(const SymmetryCurve& curve) {
   const size_t most = largest_difference(curve);
   const double apart = curve.xi_left[most] - curve.xi_right[most];
+  if (std::isnan(apart)) return "not known, as a corner of the mouth is not recorded";
   if (std::abs(apart) <= curve.floor) return "both sides stretch alike";
   if (curve.undecided(most))
     return std::string("undecided: the sides differ by less than ") +

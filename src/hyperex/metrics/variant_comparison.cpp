@@ -104,8 +104,8 @@ void measure_farthest(const simulate::Performance& own, const simulate::Performa
 }
 
 void measure_commissures(const ComparedRun& base, const ComparedRun& run, VariantComparison& c) {
-  c.commissure_left = c.commissure_right = c.left_along_base =
-      c.right_along_base = {std::nan(""), std::nan(""), std::nan(""), std::nan("")};
+  const ExcursionChange unknown{std::nan(""), std::nan(""), std::nan(""), std::nan("")};
+  c.commissure_left = c.commissure_right = c.left_along_base = c.right_along_base = unknown;
   const Excursions& before = base.symmetry.excursions;
   const Excursions& excursions = run.symmetry.excursions;
   for (std::size_t i = 0; i < excursions.pairs.size(); ++i)
@@ -130,6 +130,9 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
       };
       c.left_along_base = along(left, &Commissure::twin_left_track_mm);
       c.right_along_base = along(right, &Commissure::twin_right_track_mm);
+      const PairExcursion& corners = excursions.pairs[i];
+      if (!corners.left_recorded) c.left_from_base = {}, c.left_along_base = unknown;
+      if (!corners.right_recorded) c.right_from_base = {}, c.right_along_base = unknown;
     }
 }
 
@@ -225,12 +228,14 @@ VariantComparison compare_variant(const std::string& name, const ComparedRun& ba
   measure_sides(map, own.skin_rest, p.skin_displacement_m[peak], area, c);
   c.asymmetry_mm = map.frames[peak].face_rms_mm;
   const SymmetryCurve& s = run.symmetry.curve;
-  c.added_xi_difference = at_greatest(added_difference(s, base.symmetry.curve));
+  const std::vector<double> added = added_difference(s, base.symmetry.curve);
+  const bool measured = std::ranges::any_of(added, [](double xi) { return std::isfinite(xi); });
+  c.added_xi_difference = measured ? at_greatest(added) : std::nan("");
   c.added_xi_floor = added_mesh_floor(s, base.symmetry.curve);
   c.share_near_mouth = share_within(c.difference.greatest_m, own.skin_rest.points,
                                     lip_outline(landmarks), kNearMouth_m, area);
   measure_lag(own, p, inputs.recorded, pair, c);
-  c.symmetry_integral_s = integral(s.time_s, s.xi_left, s.xi_right);
+  c.symmetry_integral_s = measured ? integral(s.time_s, s.xi_left, s.xi_right) : std::nan("");
   return c;
 }
 

@@ -7,10 +7,14 @@
 #include <utility>
 
 #include "hyperex/core/quantile.hpp"
+#include "hyperex/core/within_95.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
-#include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 
 namespace hyperex::motion {
 namespace {
@@ -18,6 +22,16 @@ namespace {
 constexpr std::size_t kMostStillSamples = 200;
 constexpr std::size_t kLeastStillPoints = 4;
 constexpr double kLeastStillSpread = 0.02;  // the least that stabilise() accepts
+
+// Beside the landmarks of the face, which give a pose already.
+/// What a band gives, in addition to jitter.
+constexpr double kBandGives_m = 0.2e-3;
+/// A smaller set turns the head by its own jitter.
+constexpr double kLeastStillSize_m = 0.05;
+/// A face that moves less does not show which of its points are still.
+constexpr double kFaceMoves_m = 3e-3;
+/// Of many points a few keep their distances by chance: measured, up to five of 39 on a smile.
+constexpr std::size_t kMoreThanChance = 6;
 
 std::vector<int> candidates(const Motion& motion) {
   std::vector<int> out;
@@ -147,19 +161,27 @@ Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eig
   return worst;
 }
 
-/// The largest set found whose distances change by at most kStillPoints_m, in rising order.
-std::vector<Eigen::Index> largest_still_set(const Eigen::MatrixXd& change) {
+/// The largest set found whose distances change by at most `allowed_m`, in rising order; of several
+/// the one whose distances change least in sum.
+std::vector<Eigen::Index> largest_still_set(const Eigen::MatrixXd& change, double allowed_m) {
   std::vector<Eigen::Index> best;
+  double best_sum_m = 0;
   for (Eigen::Index seed = 0; seed < change.rows(); ++seed) {
     std::vector<Eigen::Index> nearest(std::size_t(change.rows()));
     for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = Eigen::Index(i);
     std::ranges::stable_sort(nearest, {}, [&](Eigen::Index i) { return change(seed, i); });
     std::vector<Eigen::Index> set;
     for (const Eigen::Index i : nearest)
-      if (std::ranges::all_of(
-              set, [&](Eigen::Index other) { return change(i, other) <= kStillPoints_m; }))
+      if (std::ranges::all_of(set,
+                              [&](Eigen::Index other) { return change(i, other) <= allowed_m; }))
         set.push_back(i);
-    if (set.size() > best.size()) best = set;
+    double sum_m = 0;
+    for (const Eigen::Index i : set)
+      for (const Eigen::Index j : set) sum_m += change(i, j);
+    if (set.size() > best.size() || (set.size() == best.size() && sum_m < best_sum_m)) {
+      best = set;
+      best_sum_m = sum_m;
+    }
   }
   std::ranges::sort(best);
   return best;
@@ -170,6 +192,55 @@ bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
   for (std::size_t i = 0; i < rows.size(); ++i)
     at.row(Eigen::Index(i)) = motion.positions.front().row(rows[i]);
   return spread_off_line(at) < kLeastStillSpread;
+}
+
+/// Candidates whose names are not those of landmarks, nor words for one.
+std::vector<int> beside_landmarks(const Motion& motion) {
+  std::vector<int> rows = candidates(motion);
+  std::erase_if(rows, [&](int row) {
+    const std::string& name = motion.names[std::size_t(row)];
+    return face::is_known_landmark(face::full_name(name)) || !face::name_of_words(name).empty();
+  });
+  return rows;
+}
+
+/// How many of `count` points must keep their distances.
+std::size_t enough_of(std::size_t count) {
+  return count == 3 ? 3 : std::clamp((count + 1) / 2, kLeastStillPoints, kMoreThanChance);
+}
+
+double greatest_distance(const Points& at, const std::vector<int>& rows) {
+  double most = 0;
+  for (const int a : rows)
+    for (const int b : rows) most = std::max(most, (at.row(a) - at.row(b)).norm());
+  return most;
+}
+
+/// Whether some point of a motion without head pose moves as an expression makes it.
+bool face_moves(const Motion& motion) {
+  return std::ranges::any_of(motion.positions, [&](const Points& at) {
+    return ((at - motion.positions.front()).rowwise().norm().array() > kFaceMoves_m).any();
+  });
+}
+
+/// Whether these points move with the skull by the landmarks of the face, too, which those of the
+/// lower teeth do not: at 95 % of the samples their displacement (root mean square) is within what
+/// an error of the landmarks' pose makes there (95 %), and kStillPoints_m.
+bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& rows) {
+  std::size_t off = 0;
+  for (std::size_t k = 0; k < steady.poses.size(); ++k) {
+    const UncertainPose& pose = steady.poses[k];
+    double moved = 0, variance = 0;
+    for (const int row : rows) {
+      const Vec3 at = steady.motion.positions[k].row(row).transpose();
+      moved += (at.transpose() - steady.motion.positions.front().row(row)).squaredNorm();
+      const auto arm = pose_derivative(at - pose.centre);
+      variance += (arm * pose.covariance * arm.transpose()).trace();
+    }
+    const auto count = double(rows.size());
+    if (std::sqrt(moved / count) > kWithin95 * std::sqrt(variance / count) + kStillPoints_m) ++off;
+  }
+  return 20 * off <= steady.poses.size();
 }
 
 }  // namespace
@@ -187,7 +258,7 @@ std::vector<std::string> find_still_points(const std::vector<const Motion*>& mot
   Eigen::MatrixXd change = Eigen::MatrixXd::Zero(count, count);
   for (std::size_t i = 0; i < motions.size(); ++i)
     change = change.cwiseMax(distance_changes(*motions[i], common.rows[i])).eval();
-  const std::vector<Eigen::Index> set = largest_still_set(change);
+  const std::vector<Eigen::Index> set = largest_still_set(change, kStillPoints_m);
   if (set.size() < kLeastStillPoints) return {};
   for (std::size_t i = 0; i < motions.size(); ++i) {
     std::vector<int> rows;
@@ -244,6 +315,34 @@ std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>&
   const bool all =
       std::ranges::all_of(motions, [](const Motion* m) { return has_pose_points(*m); });
   return all ? std::vector<std::string>() : find_still_points(motions);
+}
+
+std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& steady) {
+  const Motion& motion = steady.motion;
+  if (motion.positions.size() < 2 || steady.poses.size() != motion.positions.size() ||
+      !motion.skull_points.empty())
+    return {};
+  const std::vector<int> rows = beside_landmarks(motion);
+  if (rows.size() < 3) return {};
+  const double jitter_m = jitter_of_motion(motion, rows);
+  const double allowed_m =
+      std::min(kStillPoints_m, kBandGives_m + 2 * (std::isnan(jitter_m) ? 0 : jitter_m));
+  std::vector<int> still;
+  for (const Eigen::Index i :
+       largest_still_set(usual_changes(smoothed_samples(motion, rows)), allowed_m))
+    still.push_back(rows[std::size_t(i)]);
+  if (still.size() < enough_of(rows.size()) || lie_near_a_line(motion, still) ||
+      greatest_distance(motion.positions.front(), still) < kLeastStillSize_m ||
+      !face_moves(motion) || !stay_by_landmarks(steady, still))
+    return {};
+  std::vector<std::string> names;
+  for (const int row : still) names.push_back(motion.names[std::size_t(row)]);
+  return names;
+}
+
+std::vector<std::string> rigid_points_to_name(const Motion& motion) {
+  if (!has_pose_points(motion)) return proposed_rigid_points(motion);
+  return still_points_beside_landmarks(try_stabilise(motion, {}, "rigid_points").steady);
 }
 
 }  // namespace hyperex::motion

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/stabilise.hpp"
 
 namespace hyperex::motion {
 
@@ -51,5 +52,24 @@ std::vector<std::string> proposed_rigid_points(const Motion& motion);
 /// One set for several recordings of one face, so that their poses have the same meaning: that of
 /// find_still_points(), where has_pose_points() is false for one of them.
 std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>& motions);
+
+/// Points of the skull that a pose by the landmarks of the face leaves unused: markers of a band,
+/// of the ears, of the upper teeth. `steady`: of stabilise() without given points. Candidates are
+/// measured in every sample, and their names are not those of landmarks. All of this holds:
+///  * The distances between them change by at most 0.2 mm and twice their own jitter, and by at
+///    most kStillPoints_m: in 95 % of the samples, after a running median of five. Skin over bone
+///    changes more: on a speaker's forehead 0.6 to 1.2 mm.
+///  * They are at least half of the candidates, or six; and four, or three of three.
+///  * They do not lie nearly on a line, and two are at least 50 mm apart.
+///  * Some point of the face moves by more than 3 mm.
+///  * By the landmarks they stay, too: root mean square displacement within the 95 % bound of the
+///    landmarks' pose and kStillPoints_m, in 95 % of the samples. Points of the lower teeth do not.
+/// In the motion's order; else empty, as where `steady` has no poses.
+std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& steady);
+
+/// The points that a new scene of this motion should name in motion.rigid_points: those of
+/// proposed_rigid_points(), or where the landmarks of the face give a pose,
+/// still_points_beside_landmarks().
+std::vector<std::string> rigid_points_to_name(const Motion& motion);
 
 }  // namespace hyperex::motion

@@ -26,4 +26,8 @@ TriedPose try_stabilise(const Motion& motion, const std::vector<std::string>& st
 /// the skull do": says which points were found, as the user did not name them.
 std::string still_points_sentence(const std::vector<std::string>& still_points);
 
+/// "the head's pose is that of the face's landmarks, while a, b, c keep their distances from each
+/// other, as points of the skull do, and are not used": of still_points_beside_landmarks().
+std::string unused_still_points_sentence(const std::vector<std::string>& still_points);
+
 }  // namespace hyperex::motion

@@ -183,6 +183,11 @@ void take_budget(const Json* figure, CornerChange& c) {
   c.decided = decided.is_boolean() ? double(decided.get<bool>()) : std::nan("");
 }
 
+/// False: a run simulated this corner ("R", "L"), and its recording does not show it.
+bool is_recorded(const Json& corners, const std::string& side) {
+  return !corners.contains("recorded") || corners["recorded"].value(side, true);
+}
+
 std::string side_words(const Json& summary, const Json& variant, const std::string& side) {
   const Json& base = summary["variants"]["table"][0];
   const double unknown = std::nan("");
@@ -207,8 +212,18 @@ std::string side_words(const Json& summary, const Json& variant, const std::stri
   return std::isnan(c.from_mm) || std::isnan(c.to_mm) ? "not known" : change_words(c);
 }
 
+std::string words_of_corner(const Json& corners, const std::string& side) {
+  const double mm = corner_number(corners["excursion_mm"], side, std::nan(""));
+  return std::isnan(mm) ? "not recorded" : fmt::format("{:.1f} mm", printed_mm(mm));
+}
+
 std::string line_of(const Json& corners, const Json* budget) {
-  if (!corners.contains("excursion_mm") || !corners["excursion_mm"]["L"].is_number()) return "";
+  if (!corners.contains("excursion_mm")) return "";
+  if (!is_recorded(corners, "R") || !is_recorded(corners, "L"))
+    return fmt::format(
+        "corners of the mouth: right {}, left {}: a difference of the sides is not known\n",
+        words_of_corner(corners, "R"), words_of_corner(corners, "L"));
+  if (!corners["excursion_mm"]["L"].is_number()) return "";
   const double left = corners["excursion_mm"]["L"], right = corners["excursion_mm"]["R"];
   const double shown = std::abs(printed_mm(left) - printed_mm(right)),
                exact = std::abs(left - right);
@@ -243,10 +258,14 @@ std::string variant_lines(const Json& summary) {
   std::string lines;
   if (!summary.contains("variants")) return lines;
   const auto& table = summary["variants"]["table"];
+  const Json corners = summary.value(Json::json_pointer("/symmetry/commissure"), Json::object());
+  const auto words = [&](const Json& variant, const char* side) {
+    return is_recorded(corners, side) ? side_words(summary, variant, side) : "not recorded";
+  };
   for (std::size_t i = 1; i < table.size(); ++i) {
     lines += fmt::format("  {}: corner of the mouth right {}; left {}\n",
-                         table[i]["name"].get<std::string>(), side_words(summary, table[i], "R"),
-                         side_words(summary, table[i], "L"));
+                         table[i]["name"].get<std::string>(), words(table[i], "R"),
+                         words(table[i], "L"));
     lines += unpulled_lines(table[i]);
   }
   if (lines.empty()) return lines;

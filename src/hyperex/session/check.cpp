@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <optional>
 #include <utility>
 
 #include "hyperex/core/progress.hpp"
@@ -12,15 +13,19 @@
 namespace hyperex::session {
 namespace {
 
-Inputs inputs_of(const scene::Scene& scene) {
-  Progress progress("reading scan and recording", 0);
-  return read_inputs(scene, Extent::quick);
+Inputs inputs_of(const scene::Scene& scene, CheckDepth depth) {
+  std::optional<Progress> progress;
+  // A search for landmarks has a bar of its own.
+  const bool search = depth == CheckDepth::face && scene.scan.landmarks.empty() &&
+                      scene.given.landmarks.empty() && !scene.scan.source.embedded;
+  if (!search) progress.emplace("reading scan and recording", 0);
+  return read_inputs(scene, search ? Extent::searched : Extent::quick);
 }
 
 }  // namespace
 
 std::vector<Note> check(const scene::Scene& scene, std::string* cost, CheckDepth depth) {
-  Inputs inputs = inputs_of(scene);
+  Inputs inputs = inputs_of(scene, depth);
   const auto expected = checked_cost(scene, inputs, Extent::quick);
   if (cost && expected) *cost = sentence_of(*expected);
   std::vector<Note> notes = inputs.notes;

@@ -211,8 +211,11 @@ class FaceSession {
 
 /// How far check() goes.
 enum class CheckDepth {
-  inputs,  ///< files, names, units, landmarks, the cost: a fraction of a second
-  face     ///< besides, all that a run does before it assembles matrices (try_face.hpp): about 1 s
+  inputs,  ///< files, names, units, given landmarks, the cost: a fraction of a second
+  /// Besides, all that a run does before it assembles matrices (try_face.hpp): about 1 s. Landmarks
+  /// of a scan that has none are found first, which takes 2 s unless an earlier run or check kept
+  /// them (Scene::kept).
+  face
 };
 
 /// Reads the files of a scene, those that take long only in part, and simulates nothing. Returns

@@ -14,6 +14,7 @@
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/idle_keys.hpp"
 #include "hyperex/session/lid_middles.hpp"
+#include "hyperex/session/one_sided.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
 #include "hyperex/session/read_bones.hpp"
@@ -74,7 +75,7 @@ void read_recording_files(const scene::Scene& scene, Extent extent, Files& files
 
 /// Combines what was read. Errors that would make the search for landmarks useless, which takes
 /// long, are thrown at once.
-Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& problems) {
+Inputs joined(const scene::Scene& scene, bool search, Files& files, Problems& problems) {
   Inputs in = std::move(files.scan.in);
   const Inputs &recording = files.recording.in, &completion = files.completion.in;
   append(in.notes, recording.notes);
@@ -88,7 +89,7 @@ Inputs joined(const scene::Scene& scene, Extent extent, Files& files, Problems& 
   problems.add(files.recording.problems);
   const bool to_find =
       files.given.empty() && scene.scan.landmarks.empty() && !scene.scan.source.embedded;
-  if (to_find && extent == Extent::full) {
+  if (to_find && search) {
     problems.throw_if_any();
     files.given = find_landmarks(in.scan, "the scene names no landmarks", in.notes, scene.kept);
     files.completion.problems.attempt(
@@ -106,9 +107,9 @@ void check_unaligned(const scene::Scene& scene,
                      const std::optional<motion::StabilisedMotion>& steady, Inputs& in) {
   in.notes.push_back(make_note(
       "landmarks.not_searched",
-      "the scene names no landmarks, so a run looks for them on the scan, as hyperex landmarks "
-      "does; not checked: whether they are found, how the recording fits them, the names of "
-      "landmarks, and the mesh"));
+      "the scene names no landmarks, so a check and a run look for them on the scan, as hyperex "
+      "landmarks does; not checked here: whether they are found, how the recording fits them, the "
+      "names of landmarks, and the mesh"));
   if (steady) check_without_landmarks(scene, steady->motion, in);
   note_missing_support(scene, in);
 }
@@ -164,16 +165,18 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   note_misfit(scene, given, steady, in);
   add(in.notes, start_warning(steady, at_rest, of_weights(scene)));
   add(in.notes, exchanged_warning(steady, at_rest));
+  add(in.notes, one_sided_warning(in.motion.motion, in.landmarks));
 }
 
 }  // namespace
 
-Inputs read_inputs(const scene::Scene& scene, Extent extent, bool with_variants) {
+Inputs read_inputs(const scene::Scene& scene, Extent of, bool with_variants) {
+  const Extent extent = of == Extent::full ? Extent::full : Extent::quick;  // of the recording
   Files files;
   run_together({[&] { read_scan_files(scene, with_variants, files); },
                 [&] { read_recording_files(scene, extent, files); }});
   Problems problems;
-  Inputs in = joined(scene, extent, files, problems);
+  Inputs in = joined(scene, of != Extent::quick, files, problems);
   if (scene.motion.source.embedded && !in.landmarks.empty())
     problems.attempt([&] {
       auto opening = motion::embedded_mouth_opening(in.landmarks);

@@ -57,7 +57,8 @@ enum class Extent {
   /// A camera's recording as far as its first frame with a face. Landmarks of a scan that has none
   /// are not searched for, and what depends on them (the alignment, whether the elements are small
   /// enough) is left out. Notes report this.
-  quick
+  quick,
+  searched  ///< as quick, but landmarks are searched for
 };
 
 /// Throws InputError, as far as possible with all problems at once. `with_variants`: also where

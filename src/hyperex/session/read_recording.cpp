@@ -20,6 +20,7 @@
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/motion/still_points.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/recording_file.hpp"
 #include "hyperex/session/check_alone.hpp"
@@ -185,6 +186,17 @@ void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady
                     in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg)));
 }
 
+/// Points of the skull beside the landmarks of the face, where the scene names none. Those of a
+/// camera's recording are all of the face.
+std::optional<Note> unused_points_note(const scene::Scene& scene,
+                                       const motion::StabilisedMotion& steady) {
+  if (!scene.motion.recording.empty() || of_weights(scene)) return std::nullopt;
+  const std::vector<std::string> still = motion::still_points_beside_landmarks(steady);
+  if (still.empty()) return std::nullopt;
+  return make_note("head.still_points_unused", motion::unused_still_points_sentence(still) +
+                                                   "; name them in motion.rigid_points");
+}
+
 /// A quick reading of a camera's recording has its first face alone.
 bool is_read_whole(const scene::Scene& scene, Extent extent) {
   return scene.motion.recording.empty() || extent == Extent::full;
@@ -256,6 +268,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   steady.motion.skull_points = options.rigid_points;
   add(in.notes, check_steady(steady.motion, readings));
   note_head(scene, steady, in);
+  add(in.notes, unused_points_note(scene, steady));
   if (!still_head) add(in.notes, rigid_points_warning(scene, filled.motion));
   if (whole) {
     in.pose_variance =

@@ -72,7 +72,11 @@ void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, c
         fmt::format("{} of {} landmarks were not given and were placed by fitting the canonical "
                     "face to the {} given ones and the scan",
                     in.placed.size(), in.landmarks.size(), given.size())));
-  append(in.notes, anatomy::scan_doubts(given, in.landmarks, scan.mesh));
+  const std::optional<Note> flat = anatomy::flat_warning(in.landmarks);
+  if (!flat)
+    if (const auto missing = anatomy::half_missing(given, in.landmarks, scan.mesh))
+      throw InputError(scan.file.empty() ? source : scan.file.string(), *missing);
+  add(in.notes, flat);
 }
 
 void note_tissue_files(const scene::Scene& scene, Inputs& in, bool refuse_variants) {

@@ -19,8 +19,8 @@ void note_turned_triangles(const scene::Scene& scene, Inputs& in);
 /// InputError.
 io::Landmarks given_landmarks(const scene::Scene& scene);
 
-/// Sets in.landmarks and in.placed, and notes anatomy::scan_doubts(). Throws InputError as
-/// anatomy::complete_landmarks().
+/// Sets in.landmarks and in.placed, and notes anatomy::flat_warning(). Throws InputError as
+/// anatomy::complete_landmarks(), and where half of the face is missing (anatomy::half_missing()).
 void complete_landmarks(const scene::Scene& scene, const io::Landmarks& given, const io::Scan& scan,
                         Inputs& in);
 

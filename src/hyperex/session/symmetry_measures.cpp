@@ -4,6 +4,7 @@
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/metrics/mesh_floor.hpp"
 #include "hyperex/metrics/pose_floor.hpp"
+#include "hyperex/metrics/recorded_sides.hpp"
 #include "hyperex/metrics/repetition_floor.hpp"
 
 namespace hyperex::session {
@@ -43,6 +44,7 @@ metrics::SymmetryMeasures symmetry_measures(const scene::Scene& scene, const Inp
   metrics::add_repetition_floor(all.excursions, 1e3 * scene.output.repetition_m);
   if (twin.why_not.empty())
     metrics::add_mesh_floor(all.curve, all.excursions, p.landmarks, twin.landmarks);
+  metrics::withhold_unrecorded(all, p.landmarks, inputs.motion.motion);
   return all;
 }
 

@@ -3,7 +3,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <string>
 
 #include "hyperex/core/progress.hpp"
@@ -17,13 +16,6 @@
 
 namespace hyperex::session {
 namespace {
-
-bool names_regions(const scene::Scene& scene) {
-  return !scene.tissue.regions.empty() ||
-         std::ranges::any_of(scene.variants, [](const scene::Variant& variant) {
-           return !variant.scene.tissue.regions.empty();
-         });
-}
 
 double expected_nodes(const scene::Scene& scene, const Inputs& inputs) {
   return tissue::expected_surface_nodes(inputs.scan.mesh, inputs.landmarks, scene.mesh) *
@@ -55,13 +47,6 @@ void check_faces_before_run(simulate::Simulator& base, const std::vector<Variant
 }
 
 std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
-  if (inputs.landmarks.empty()) {
-    if (!names_regions(given)) return {};
-    return {make_note("tissue.regions_unchecked",
-                      "not checked: whether the regions of the tissue lie on this scan and which "
-                      "values their factors lead to",
-                      "tissue.region")};
-  }
   if (const Eigen::Index vertices = inputs.scan.mesh.points.rows(); vertices > kMostTriedVertices)
     return {unchecked_mesh(fmt::format("meshing a scan of {} vertices", vertices))};
   if (const double nodes = expected_nodes(given, inputs); nodes > kMostTriedNodes)

@@ -16,9 +16,9 @@ inline constexpr Eigen::Index kMostTriedVertices = 300000;
 
 /// Does what a run does before it assembles matrices: the mesh, the tissue on it, what moves the
 /// face, and the same of each variant. Throws InputError, in a run's words, with what a run refuses
-/// by then. Returns the mesh's notes. Where landmarks are unknown, or the scan or the mesh would be
-/// larger than the bounds above, nothing is done and a note says so. Of a camera's recording the
-/// points are not tried, as Extent::quick reads one frame of it. `inputs`: of read_inputs().
+/// by then. Returns the mesh's notes. Where the scan or the mesh would be larger than the bounds
+/// above, nothing is done and a note says so. Of a camera's recording the points are not tried, as
+/// Extent::searched reads one frame of it. `inputs`: of read_inputs(), with landmarks.
 std::vector<Note> try_face(const scene::Scene& scene, Inputs inputs);
 
 /// Throws InputError where the run of base or of a variant would because of points, muscles, the

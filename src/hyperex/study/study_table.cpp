@@ -38,7 +38,7 @@ const std::vector<std::string> kOfAPair = {"excursion_mm", "difference_mm", "flo
 /// Entries that are not measures, or are distributions.
 bool is_left_out(const std::string& name) {
   return name == "options" || name == "mesh_quality.least_dihedral_share" ||
-         name == "symmetry.commissure.point";
+         name == "symmetry.commissure.point" || name == "symmetry.commissure.recorded";
 }
 
 std::string number(const Json& value) {

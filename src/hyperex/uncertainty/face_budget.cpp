@@ -259,6 +259,7 @@ FaceBudget face_budget(const session::FaceSession& session, const simulate::RunC
     }
   }
   for (std::size_t i = 0; i < others.places().size(); ++i) {
+    if (std::isnan(others.own(i))) continue;  // of a side that is not recorded
     const Place& place = others.places()[i];
     BudgetedFigure figure{
         place.kind,      place.face == 0 ? "" : scene.variants.at(place.face - 1).name,

@@ -56,6 +56,9 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
                            with_file_name(tried.why_not, motion.source));
     return tried.steady;
   }
+  if (const auto unused = motion::still_points_beside_landmarks(tried.steady); !unused.empty())
+    face.remarks.push_back(motion::unused_still_points_sentence(unused) +
+                           "; name them in rigid_points of the visits");
   if (!still_points.empty())
     face.remarks.push_back(motion::still_points_sentence(still_points) +
                            ", in every recording; rigid_points of the visits names others");

@@ -5,12 +5,16 @@
 #include <numbers>
 #include <random>
 
+#include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/words_to_point.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "unit/motion/motions.hpp"
 
 namespace hyperex::motion {
 namespace {
 using ::testing::ElementsAre;
+using ::testing::ElementsAreArray;
 using ::testing::IsEmpty;
 
 constexpr double kPlace_m[6][3] = {{0, 0.1, 0},     {0.05, 0.1, -0.01}, {-0.05, 0.1, -0.01},
@@ -151,6 +155,132 @@ TEST(UnsteadyPoints, AreNotThoseThatAreReadBadly) {
     return kPlace_m[p][axis] + noise_m(random);
   });
   EXPECT_THAT(unsteady(motion, kOfTheSkull), IsEmpty()) << "jitter";
+}
+
+const std::vector<std::string> kBand = {"head_1", "head_2", "head_3", "head_4", "head_5", "head_6"};
+const std::vector<Vec3> kOnBand = {{-0.07, 0.05, -0.02}, {0.07, 0.05, -0.02}, {-0.04, 0.08, 0.02},
+                                   {0.04, 0.08, 0.02},   {0, 0.09, 0.03},     {0, 0.12, -0.03}};
+
+/// All landmarks on a head that turns while the mouth opens by `opens_m`, and six points more at
+/// `places`, which `move` displaces by the share of the opening.
+Motion landmarks_with(const std::vector<Vec3>& places, double opens_m,
+                      const std::function<Vec3(std::size_t point, double share)>& move,
+                      double noise_m = 0) {
+  const face::CanonicalFace& face = face::canonical_face();
+  Motion motion;
+  motion.names = face::all_ibug();
+  for (std::size_t p = 0; p < places.size(); ++p) motion.names.push_back(kBand[p]);
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  for (int k = 0; k < 60; ++k) {
+    const double share = std::sin(k * std::numbers::pi / 60);
+    const Eigen::AngleAxisd turned(0.1 * share, Vec3::UnitY());
+    Points at(Eigen::Index(motion.names.size()), 3);
+    for (std::size_t p = 0; p < motion.names.size(); ++p) {
+      Vec3 x;
+      if (p < face::all_ibug().size()) {
+        x = face.landmark(motion.names[p], face.mesh.points);
+        if (face::moves_with_mouth(motion.names[p])) x.y() -= opens_m * share;
+      } else {
+        const std::size_t own = p - face::all_ibug().size();
+        x = places[own] + move(own, share);
+      }
+      x = turned * x;
+      for (int axis = 0; axis < 3; ++axis) x[axis] += noise_m * normal(random);
+      at.row(Eigen::Index(p)) = x.transpose();
+    }
+    motion.time_s.push_back(k / 30.0);
+    motion.positions.push_back(at);
+  }
+  return motion;
+}
+
+Vec3 none(std::size_t, double) {
+  return Vec3::Zero();
+}
+
+TEST(StillPointsBesideLandmarks, AreThoseOfABand) {
+  const Motion band = landmarks_with(kOnBand, 0.01, none);
+  ASSERT_TRUE(has_pose_points(band));
+  EXPECT_THAT(still_points_beside_landmarks(stabilise(band)), ElementsAreArray(kBand));
+  EXPECT_THAT(rigid_points_to_name(band), ElementsAreArray(kBand));
+  EXPECT_THAT(proposed_rigid_points(band), IsEmpty()) << "they are not used unasked";
+  EXPECT_THAT(still_points_beside_landmarks(stabilise(band, {.rigid_points = kBand})), IsEmpty())
+      << "they are used";
+  EXPECT_THAT(rigid_points_to_name(nodding()), ElementsAre("top", "left", "right", "nose"));
+  const Motion noisy = landmarks_with(kOnBand, 0.01, none, 0.15e-3);
+  EXPECT_GE(still_points_beside_landmarks(stabilise(noisy)).size(), 5u) << "with jitter";
+}
+
+TEST(StillPointsBesideLandmarks, AreEnoughAndFarApart) {
+  const auto found = [](const std::vector<Vec3>& places) {
+    return still_points_beside_landmarks(stabilise(landmarks_with(places, 0.01, none))).size();
+  };
+  EXPECT_EQ(found({kOnBand[0], kOnBand[1], kOnBand[4]}), 3u) << "all three";
+  EXPECT_EQ(found({kOnBand[0], kOnBand[1]}), 0u);
+  std::vector<Vec3> small = kOnBand;
+  for (Vec3& place : small) place = 0.3 * place + Vec3(0, 0.06, 0.03);
+  EXPECT_EQ(found(small), 0u);
+  EXPECT_EQ(found({{-0.06, 0.08, 0}, {-0.02, 0.08, 0}, {0.02, 0.08, 0}, {0.06, 0.08, 0}}), 0u)
+      << "on a line";
+}
+
+TEST(StillPointsBesideLandmarks, AreNotTheSkin) {
+  const auto found = [](const auto& move, double opens_m = 0.01) {
+    return still_points_beside_landmarks(stabilise(landmarks_with(kOnBand, opens_m, move)));
+  };
+  EXPECT_THAT(found([](std::size_t p, double share) {
+                return Vec3(0, 0.7e-3 * share * (p % 2 == 0 ? 1 : -1), 0.4e-3 * share * double(p));
+              }),
+              IsEmpty())
+      << "a forehead that hardly moves";
+  EXPECT_THAT(found([](std::size_t, double share) { return Vec3(0, -0.02 * share, 0); }), IsEmpty())
+      << "six of the lower teeth";
+  EXPECT_THAT(found(none, 0), IsEmpty()) << "the face does not move";
+  // One that slips takes nothing from the others.
+  EXPECT_THAT(
+      found([](std::size_t p, double share) { return Vec3(p == 2 ? 3e-3 * share : 0, 0, 0); }),
+      ElementsAre("head_1", "head_2", "head_4", "head_5", "head_6"));
+}
+
+TEST(StillPointsBesideLandmarks, OfManyAreMoreThanAFew) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  for (int extra = 0; extra < 8; ++extra) {
+    motion.names.push_back("cheek_" + std::to_string(extra));
+    for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+      Points& at = motion.positions[k];
+      at.conservativeResize(at.rows() + 1, 3);
+      at.row(at.rows() - 1) = Eigen::RowVector3d(0.01 * extra, 1e-3 * double(k * extra), 0.05);
+    }
+  }
+  EXPECT_THAT(still_points_beside_landmarks(stabilise(motion)), ElementsAreArray(kBand));
+  motion.names[68] = "left middle of the brow";  // words for a landmark
+  EXPECT_THAT(still_points_beside_landmarks(stabilise(motion)), IsEmpty()) << "five of thirteen";
+}
+
+TEST(StillPointsBesideLandmarks, OfRealRecordingsAreTheBandAlone) {
+  const std::vector<Motion> all = testing::recordings_of_faces();
+  if (all.empty()) GTEST_SKIP() << "the shared recordings are not here";
+  std::size_t with_band = 0;
+  for (const Motion& motion : all) {
+    if (!has_pose_points(motion)) continue;
+    const auto still = still_points_beside_landmarks(stabilise(motion));
+    const bool has_band = motion.index_of("head_1") >= 0;
+    with_band += has_band;
+    EXPECT_THAT(still, ElementsAreArray(has_band ? kBand : std::vector<std::string>()))
+        << motion.source;
+    if (!has_band) continue;
+    // The skin of brows and cheeks, as if nobody knew its landmarks.
+    Motion nameless = motion;
+    for (const int i : {0, 1, 2, 3, 13, 14, 15, 16, 17, 18, 19, 20, 21, 22, 23, 24, 25, 26})
+      if (const int row = nameless.index_of(face::ibug(i)); row >= 0)
+        nameless.names[std::size_t(row)] = "skin_" + std::to_string(i);
+    EXPECT_THAT(still_points_beside_landmarks(stabilise(nameless)), ElementsAreArray(kBand));
+    for (const std::string& name : kBand)
+      nameless.names[std::size_t(nameless.index_of(name))] = "lip " + name;
+    EXPECT_THAT(still_points_beside_landmarks(stabilise(nameless)), IsEmpty()) << "skin alone";
+  }
+  EXPECT_GE(with_band, 1u);
 }
 
 TEST(StillPoints, AMissingPoseProposesThem) {

@@ -36,6 +36,21 @@ Json summary_of(const Corner& right, const Corner& left, const Json& weaker) {
 
 const Corner same{6.7, 6.72, 6.72};
 
+TEST(CornerWords, ACornerThatIsNotRecordedHasNoFigure) {
+  Json summary = summary_of({std::nan(""), std::nan(""), std::nan("")}, same, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["excursion_mm"]["R"] = nullptr;
+  corners["recorded"] = {{"R", false}, {"L", true}};
+  EXPECT_EQ(corners_line(summary),
+            "corners of the mouth: right not recorded, left 6.7 mm: a difference of the sides is "
+            "not known\n");
+  EXPECT_THAT(variant_lines(summary),
+              HasSubstr("corner of the mouth right not recorded; left 6.7 mm, unchanged"));
+  corners["excursion_mm"]["L"] = nullptr;
+  corners["recorded"]["L"] = false;
+  EXPECT_THAT(corners_line(summary), HasSubstr("right not recorded, left not recorded: "));
+}
+
 // As the mouth opens, the weak corner moves farther, and the healthy one does not move less.
 TEST(CornerWords, AWeakCornerThatGoesFartherIsDragged) {
   const std::string lines = variant_lines(summary_of({6.7, 8.9, 8.85}, same, {"R"}));

@@ -247,9 +247,6 @@ TEST(CheckOfAFineMesh, SaysThatItMakesNone) {
   };
   EXPECT_THAT(notes({"mesh.element_size_mm=1"}), Contains(test::is_note("mesh.unchecked")));
   EXPECT_THAT(notes({}), Not(Contains(test::has_id("mesh.unchecked"))));
-  // What a region does is checked, and so no note says that it is not.
-  EXPECT_THAT(notes({"tissue.region=[{ name = \"lips\", young_factor = 2 }]"}),
-              Not(Contains(test::has_id("tissue.regions_unchecked"))));
 }
 
 TEST(CheckOfInputs, MakesNoMesh) {

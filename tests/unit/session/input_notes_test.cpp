@@ -8,6 +8,7 @@
 
 #include "apps/good_inputs.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
@@ -65,13 +66,21 @@ TEST_F(InputNotes, NameAScanWhoseTrianglesAreTurned) {
               Contains(AllOf(is_warning("scan.turned_triangles"), says("turned inside out"))));
 }
 
-TEST_F(InputNotes, NameAScanOfHalfAFace) {
+/// By landmarks of the other half alone, as by those that a search puts on the scan.
+TEST_F(InputNotes, AScanOfHalfAFaceIsRefused) {
   write_mm(folder_ / "face.ply", test::half_face(good_face(), false));
   io::Landmarks landmarks = good_landmarks();
   std::erase_if(landmarks, [](const auto& entry) { return entry.second.x() > 1e-3; });
   io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
-  EXPECT_THAT(notes({"mesh.element_size_mm=4"}),
-              Contains(AllOf(is_warning("scan.half_missing"), says("the left half"))));
+  const auto refused = [&] { return test::refusal([&] { notes({"mesh.element_size_mm=4"}); }); };
+  EXPECT_THAT(refused(), AllOf(HasSubstr("face.ply: the left half of the face is missing"),
+                               Not(HasSubstr("\n"))));
+  // Those of the missing half lie on the border.
+  const SurfaceTree tree(test::half_face(good_face(), false));
+  landmarks = good_landmarks();
+  for (auto& [name, at] : landmarks) at = tree.query(at).point;
+  io::write_landmarks(folder_ / "face_landmarks.json", landmarks, io::LengthUnit::millimetre);
+  EXPECT_NE(refused(), "");
 }
 
 TEST_F(InputNotes, NameAScanWithoutDepth) {
@@ -192,6 +201,45 @@ TEST_F(InputNotes, WarnOfRigidPointsThatMove) {
   const std::vector<Note> of_brow = with(R"("ibug68_17", "ibug68_26", "ibug68_29")");
   EXPECT_THAT(of_brow, Contains(AllOf(is_warning("head.pose_unknown"), says("other points"))));
   EXPECT_THAT(of_brow, Not(Contains(has_id("head.pose_uncertain"))));
+  // A tenth of that is between 1 and 3 mm: a note.
+  open(0, 81, [](motion::Motion& m) {
+    for (std::size_t k = 0; k < m.positions.size(); ++k)
+      m.positions[k](m.index_of("ibug68_17"), 1) += 0.0018 * double(k) / 80;
+  });
+  const std::vector<Note> of_less = with(R"("ibug68_17", "ibug68_26", "ibug68_29")");
+  EXPECT_THAT(of_less,
+              Contains(AllOf(is_note("head.pose_uncertain"), says("is uncertain by up to "),
+                             says("motion.rigid_points names points fixed"))));
+  EXPECT_THAT(of_less, Not(Contains(has_id("head.pose_unknown"))));
+}
+
+TEST_F(InputNotes, NameTheCornerOfTheMouthThatIsNotRecorded) {
+  const auto without = [&](const std::vector<std::string>& names) {
+    open(0, 16, [&](motion::Motion& m) { leave_out(m, names); });
+    return notes({"drive.points=\"all\""});
+  };
+  EXPECT_THAT(without({"cheilion_R", "ibug68_48", "ibug68_60"}),
+              Contains(AllOf(is_warning("recording.one_sided"),
+                             says("the right corner of the mouth is not recorded (ibug68_48"))));
+  EXPECT_THAT(without({"cheilion_L", "ibug68_54", "ibug68_64"}),
+              Contains(AllOf(is_warning("recording.one_sided"), says("the left corner"))));
+  for (const std::vector<std::string>& names :
+       {std::vector<std::string>{"ibug68_48", "cheilion_L"},
+        {"cheilion_R", "ibug68_48", "ibug68_60", "cheilion_L", "ibug68_54", "ibug68_64"}})
+    EXPECT_THAT(without(names), Not(Contains(is_warning("recording.one_sided"))));
+}
+
+TEST_F(InputNotes, NamePointsOfTheSkullThatAreNotUsed) {
+  const auto unused = [](const std::vector<Note>& notes) {
+    return std::ranges::count(notes, "head.still_points_unused", &Note::id);
+  };
+  open(0, 41, [](motion::Motion&) {});
+  EXPECT_EQ(unused(notes()), 0);
+  open(0, 41, add_headband);
+  EXPECT_THAT(notes(), Contains(AllOf(is_note("head.still_points_unused"),
+                                      says("head_1, head_2, head_3, head_4, head_5, head_6 keep"),
+                                      says("name them in motion.rigid_points"))));
+  EXPECT_EQ(unused(notes({R"(motion.rigid_points=["head_1", "head_3", "head_5"])"})), 0);
 }
 
 /// The columns of motion.csv by other names.

@@ -137,6 +137,21 @@ TEST_F(PreparedFaces, ATornOneIsMadeAnew) {
   EXPECT_EQ(bytes_of(prepared()), made);
 }
 
+// Written by others, with a sound checksum: its sizes are those of another scan.
+TEST_F(PreparedFaces, OneThatDoesNotFitItsScanIsMadeAnew) {
+  const PreparedFace face = prepared();
+  const std::string made = bytes_of(face), key = kept().front().stem().string();
+  PreparedFace other = face;
+  auto mesh = std::make_shared<tissue::TissueMesh>(*face.mesh);
+  mesh->anchors.pop_back();
+  other.mesh = mesh;
+  ASSERT_TRUE(prepared_face_from(bytes_of(other)));
+  scene_.kept.keep(key, bytes_of(other));
+  ASSERT_EQ(scene_.kept.find(key).value_or(""), bytes_of(other));
+  EXPECT_EQ(bytes_of(prepared()), made);
+  EXPECT_EQ(scene_.kept.find(key).value_or(""), made) << "and kept in its place";
+}
+
 TEST_F(PreparedFaces, BytesThatEndTooSoonOrTooLateAreNone) {
   const std::string bytes = bytes_of(prepared());
   ASSERT_TRUE(prepared_face_from(bytes));

@@ -6,7 +6,10 @@
 
 #include <fstream>
 
+#include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/files.hpp"
+#include "hyperex/motion/embedded_motion.hpp"
+#include "hyperex/motion/read_motion.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "support/test_file.hpp"
@@ -45,6 +48,26 @@ TEST(SceneFiles, WhatASceneNamesIsFoundFromItsNewPlace) {
              own / "scene.toml", {own}, to / "c.toml");
   fs::remove_all(own);
   EXPECT_EQ(read_file(scene::read_scene(to / "c.toml").motion.arkit), embedded_smile());
+}
+
+TEST(MovedBy, NamesTheBandOfARecordingThatHasLandmarksToo) {
+  const TestFolder folder;
+  motion::Motion m =
+      motion::embedded_mouth_opening(anatomy::embedded_face().landmarks, {.head_moves = false});
+  const Points rest = m.positions.front();
+  for (int head = 0; head < 4; ++head) {
+    const Eigen::RowVector3d at = rest.row(m.index_of("ibug68_27")) +
+                                  Eigen::RowVector3d(0.03 * head, 0.05 + 0.02 * (head % 2), -0.02);
+    m.names.push_back(fmt::format("band_{}", head));
+    for (Points& sample : m.positions) {
+      sample.conservativeResize(sample.rows() + 1, Eigen::NoChange);
+      sample.bottomRows(1) = at;
+    }
+  }
+  motion::write_motion_csv(folder.path() / "own.csv", m);
+  const std::string text = moved_by("", folder.path() / "own.csv");
+  EXPECT_EQ(scene::parse_toml(text).root["motion"].value("rigid_points", json()),
+            json({"band_0", "band_1", "band_2", "band_3"}));
 }
 
 TEST(MovedBy, NamesTheStillPointsOfARecordingWithoutTheUsualOnes) {

@@ -11,10 +11,10 @@ import { variantsOf, type VariantRow } from './variants';
 
 export interface Corners {
   timeS: number[];
-  /** Distance from rest, mm a sample; null where unknown. */
+  /** Distance from rest, mm a sample; null where unknown, as of a corner that is not recorded. */
   left: (number | null)[];
   right: (number | null)[];
-  /** The largest of each, mm. */
+  /** The largest of each, mm; NaN: the recording does not show it. */
   leftMm: number;
   rightMm: number;
   /** Differences of the sides below this are undecided, mm; 0: no floor is known. */
@@ -50,16 +50,18 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
     const [l, r] = [landmarks.names.indexOf(leftName), landmarks.names.indexOf(rightName)];
     if (l < 0 || r < 0) continue;
     const tracks = tracksMm(replay, face);
-    const [left, right] = [tracks[l], tracks[r]];
     const pair = excursionsOf(replay, face).find(({ point }) => point === pairName);
-    const leftMm = pair?.excursion_mm.L ?? largest(left);
-    const rightMm = pair?.excursion_mm.R ?? largest(right);
-    const budget = face === 0 ? budgetOf(replay, { figure: 'difference' }) : null;
+    const isRecorded = (side: 'L' | 'R') => pair?.recorded?.[side] !== false;
+    const trackOf = (side: 'L' | 'R', track: (number | null)[]) => (isRecorded(side) ? track : track.map(() => null));
+    const [left, right] = [trackOf('L', tracks[l]), trackOf('R', tracks[r])];
+    const leftMm = isRecorded('L') ? pair?.excursion_mm.L ?? largest(left) : NaN;
+    const rightMm = isRecorded('R') ? pair?.excursion_mm.R ?? largest(right) : NaN;
+    const budget = face === 0 && isRecorded('L') && isRecorded('R') ? budgetOf(replay, { figure: 'difference' }) : null;
     const floorMm = shownFloorMm(budget?.known_half_width_95_mm ?? pair?.floor_mm ?? jitterFloorMm(replay.faces[face].symmetry?.jitter_mm ?? 0));
     return {
       timeS: landmarks.timeS, left, right, leftMm, rightMm, floorMm,
       undecided: budget ? budget.decided === false : pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
-      cannotTell: budget ? isOpen(budget) : pair?.undecided === null,
+      cannotTell: budget ? isOpen(budget) : pair?.undecided === null && isRecorded('L') && isRecorded('R'),
       budgeted: budget !== null,
       // The corner has either name.
       driven: names.some(([a, b]) => driven.names.includes(a) && driven.names.includes(b)),
@@ -68,7 +70,8 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
   return null;
 }
 
-export const mm = (value: number): string => `${roundedMm(value).toFixed(1)} mm`;
+/** Of a corner that the recording does not show there is no figure. */
+export const mm = (value: number): string => (Number.isNaN(value) ? 'not recorded' : `${roundedMm(value).toFixed(1)} mm`);
 
 /** Decimals with which two lengths do not print alike, so that "0.1 mm, below 0.1 mm" is not written: one, where that
  *  will do. `aMm` is as it is shown with one decimal, `exactMm` is not rounded. The terminal follows the same rule
@@ -160,6 +163,7 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   if (!base || !own) return null;
   const row = rowOf(replay, face);
   const [from, to] = [farthestMm(base, side), farthestMm(own, side)];
+  if (Number.isNaN(from) || Number.isNaN(to)) return null;
   const measured = row?.[`commissure_${letterOf[side]}_along_base_mm`];
   const alongMm = isNumber(measured) ? measured : to;
   const sameWay = Math.abs(to - alongMm) <= Math.max(0.25, 0.1 * to);
@@ -246,6 +250,7 @@ function changeFigures(change: CornerChange): string {
 
 /** "sides differ by 1.2 ± 0.4 mm" */
 function sidesFigures(corners: Corners): string {
+  if (!bothRecorded(corners)) return notComparedWords;
   const { own, limit } = apartAgainstFloor(corners);
   if (corners.budgeted) {
     const verdict = corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : '';
@@ -278,8 +283,14 @@ export function cornerFigures(replay: Replay, face: number, t: number): string[]
 /** The difference between the figures as they are shown, rounded. */
 export const apartMm = ({ leftMm, rightMm }: Corners): number => Math.abs(roundedMm(leftMm) - roundedMm(rightMm));
 
+/** Whether the recording shows both corners. */
+export const bothRecorded = ({ leftMm, rightMm }: Corners): boolean => !Number.isNaN(leftMm) && !Number.isNaN(rightMm);
+
+const notComparedWords = 'a difference of the sides is not known';
+
 /** "a difference of 8.1 mm": the figures do not show which side is the healthy one. */
 export function differenceWords(corners: Corners): string {
+  if (!bothRecorded(corners)) return notComparedWords;
   const { own, limit } = apartAgainstFloor(corners);
   if (corners.undecided) return `a difference of ${own}: undecided (below ${limit})`;
   if (apartMm(corners) < sameMm) return 'no difference';
@@ -289,6 +300,7 @@ export function differenceWords(corners: Corners): string {
 /** How far the sides are apart, and the floor of that, so that the two do not print alike. */
 export function apartAgainstFloor(corners: Corners): { own: string; limit: string } {
   const { leftMm, rightMm, floorMm } = corners;
+  if (!bothRecorded(corners)) return { own: 'not known', limit: mm(floorMm) };
   if (!(floorMm > 0)) return { own: mm(apartMm(corners)), limit: mm(floorMm) };
   return heldAgainst(apartMm(corners), leftMm - rightMm, floorMm);
 }

@@ -3,7 +3,7 @@
 // differ. All faces, and the curves, are in the panel of figures.
 import { button, element } from '../page/dom';
 import { sides, type Side } from '../page/side_words';
-import { apartAgainstFloor, apartMm, cornerChange, farthestMm, mm, sameMm, valueAt, type Corners } from '../replay/corners';
+import { apartAgainstFloor, apartMm, bothRecorded, cornerChange, differenceWords, farthestMm, mm, sameMm, valueAt, type Corners } from '../replay/corners';
 import { changeLine } from './change_line';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -51,6 +51,7 @@ export class Answer {
 
   private apartWords(own: Corners): (string | HTMLElement)[] {
     const { own: apart, limit } = apartAgainstFloor(own);
+    if (!bothRecorded(own)) return [differenceWords(own)];
     if (own.undecided) return [words.sidesApart, ' ', element('b', apart), ' ', element('small', words.apartUndecided(limit), 'undecided')];
     if (apartMm(own) < sameMm) return [element('b', words.apartNone)];
     if (own.cannotTell) return [words.sidesApart, ' ', element('b', apart), ' ', element('small', words.apartCannotTell, 'undecided')];

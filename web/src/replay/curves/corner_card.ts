@@ -2,7 +2,7 @@
 // The first figures of the page: both corners of the mouth in words and over time, and a line for each variant.
 import type { Chart } from '../../charts/chart_options';
 import {
-  apartAgainstFloor, asideMm, bandClauseWords, bandWords, changeSentence, cornerChange, cornersOf, differenceWords, directionMeaning, directionWords, farthestMm, mm, sameMm,
+  apartAgainstFloor, asideMm, bandClauseWords, bandWords, bothRecorded, changeSentence, cornerChange, cornersOf, differenceWords, directionMeaning, directionWords, farthestMm, mm, sameMm,
   type CornerChange, type Corners,
 } from '../corners';
 import type { Replay } from '../data';
@@ -27,6 +27,7 @@ function budgetFloorWords({ undecided, cannotTell }: Corners, limit: string): st
 
 /** Where the floor comes from, in words. */
 function floorWords(replay: Replay, corners: Corners): string {
+  if (!bothRecorded(corners)) return 'The recording shows one corner alone: what the run makes of the other is no measurement, and no figure of it is given.';
   const { floorMm, undecided, cannotTell } = corners;
   const jitter = replay.symmetry?.jitter_mm ?? 0;
   const noJitter = 'The jitter of the recording is not known: none is stated, and none shows. It may make a difference of the sides.';

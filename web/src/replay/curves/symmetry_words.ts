@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text beside S(t): the millimetres of the corners, and a remark where S and the millimetres disagree about which
 // of two faces is more symmetric.
-import { apartMm, cornersOf, mm } from '../corners';
+import { apartMm, bothRecorded, cornersOf, mm } from '../corners';
 import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
 import type { Shown } from '../shown';
@@ -18,7 +18,7 @@ const leastForRatioMm = 0.5;
  *  are not known. No per cent, which elsewhere on the page is a confidence. */
 function plainFigure(replay: Replay, face: number): string {
   const corners = cornersOf(replay, face);
-  if (!corners) return '';
+  if (!corners || !bothRecorded(corners)) return '';
   const { leftMm, rightMm } = corners;
   const ratio = Math.min(leftMm, rightMm) >= leastForRatioMm ? `, a ratio right/left of ${(rightMm / leftMm).toFixed(2)}` : '';
   return `a difference of ${mm(apartMm(corners))}${ratio}`;
@@ -53,7 +53,7 @@ function aboveFloor(replay: Replay, face: number): boolean {
 function disagree(replay: Replay, a: number, b: number): { symmetric: number; other: number } | null {
   const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
   const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
-  if (sA === null || sB === null || !cornersA || !cornersB) return null;
+  if (sA === null || sB === null || !cornersA || !cornersB || !bothRecorded(cornersA) || !bothRecorded(cornersB)) return null;
   if (cornersA.undecided && cornersB.undecided) return null;
   if (!aboveFloor(replay, a) && !aboveFloor(replay, b)) return null;
   const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));

@@ -23,6 +23,8 @@ export interface Excursion {
   undecided: boolean | null;
   /** What |L - R| of the excursions must exceed to stand out from jitter and mesh. */
   floor_mm?: number | null;
+  /** False: simulated, and not in the recording. Of one side alone nothing compares the two. */
+  recorded?: { L: boolean; R: boolean };
   [ratio: string]: unknown;
 }
 
@@ -113,6 +115,8 @@ function judgedCell(cell: HTMLTableCellElement, verdict: unknown, floor: number,
 }
 
 function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
+  const oneSided = pair.recorded !== undefined && pair.recorded.L !== pair.recorded.R;
+  const verdictOf = (key: string): unknown => (oneSided ? undefined : pair[key]);
   const row = body.insertRow();
   const name = element('th', upper(landmarkName(pair.point)));
   name.scope = 'row';
@@ -122,10 +126,10 @@ function addRow(body: HTMLTableSectionElement, pair: Excursion): void {
     const sides = pair[unitKey[key]];
     row.append(figureCell(sides.R, column), figureCell(sides.L, column));
     const over = figureCell(pair[`${key}_ratio_R_L`], { ...column, unit: '', digits: 3 });
-    row.append(judgedCell(over, pair[key === 'excursion' ? 'undecided' : `${key}_undecided`], floorOf(pair, key), unit));
+    row.append(judgedCell(over, verdictOf(key === 'excursion' ? 'undecided' : `${key}_undecided`), floorOf(pair, key), unit));
   }
   const together = figureCell(pair.speed_correlation, correlation);
-  row.append(judgedCell(together, pair.speed_correlation_undecided, NaN, ''));
+  row.append(judgedCell(together, verdictOf('speed_correlation_undecided'), NaN, ''));
 }
 
 const csvRows = (pairs: Excursion[]): (string | number | null)[][] => [
