@@ -48,7 +48,8 @@ void bind_figures(py::module_& m) {
           "unit", [](const MeasureOverVisits& s) { return s.measure.unit; },
           "\"mm\", \"degrees\" or \"%\".")
       .def_readonly("values", &MeasureOverVisits::values, "A visit; None: not measured.")
-      .def_readonly("changes", &MeasureOverVisits::changes, "A visit; None for the first, and where faces differ in scale.")
+      .def_readonly("changes", &MeasureOverVisits::changes,
+                    "A visit; None for the first, and where faces differ in scale.")
       .def("__repr__", [](const MeasureOverVisits& s) {
         return fmt::format("<hyperex.MeasureOverVisits {} {}>", s.measure.key, s.measure.side);
       });

@@ -9,6 +9,7 @@
 #include <map>
 
 #include "hyperex/core/progress.hpp"
+#include "hyperex/geometry/cross_matrix.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/jitter.hpp"
 #include "hyperex/motion/landmark_motion.hpp"
@@ -32,12 +33,6 @@ constexpr double kUsualAmplitude = 0.5, kPriorWeight = 0.5;
 // and the reverse. For the covariance the lower face moves at least as much as the upper one, and
 // the upper at least half as much as the lower.
 constexpr double kUpperWithLower = 0.5;
-
-Eigen::Matrix3d cross_matrix(const Vec3& v) {
-  Eigen::Matrix3d m;
-  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
-  return m;
-}
 
 using Amplitudes = std::array<double, 2>;  // of upper and lower face
 

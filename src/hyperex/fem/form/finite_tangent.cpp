@@ -6,18 +6,13 @@
 
 #include "hyperex/fem/form/finite_kinematics.hpp"
 #include "hyperex/fem/form/for_each_index.hpp"
+#include "hyperex/geometry/cross_matrix.hpp"
 
 namespace hyperex::fem {
 
 using Eigen::Matrix3d;
 
 namespace {
-
-Matrix3d cross_matrix(const Vec3& w) {
-  Matrix3d m;
-  m << 0, -w.z(), w.y(), w.z(), 0, -w.x(), -w.y(), w.x(), 0;
-  return m;
-}
 
 constexpr int kFirst[6] = {0, 0, 0, 1, 1, 2}, kSecond[6] = {1, 2, 3, 2, 3, 3};
 /// The index of the pair that two different corners form.
