@@ -177,7 +177,7 @@ void bind_simulator(py::module_& m) {
       .def(
           "hold_load", [](S& self) { self.change([](auto& s) { s.hold_load(); }); },
           "The forces found by the last run (else the next one), by muscles or reactions, are kept "
-          "whatever tissue and support are set from now on.")
+          "whatever tissue and support are set from now on. Later runs end no later than that one.")
       .def(
           "set_obstacles",
           [](S& self, const Obstacles& obstacles) {

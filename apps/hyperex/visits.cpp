@@ -42,8 +42,9 @@ std::string cell(const visits::VisitValue& value) {
 }
 
 std::string interval(const visits::Change& change) {
-  return change.all ? fmt::format("{:>8} to {:>6}", visits::signed_figure(change.all->low),
-                                  visits::signed_figure(change.all->high))
+  const int digits = visits::digits_of(change);
+  return change.all ? fmt::format("{:>8} to {:>6}", visits::signed_figure(change.all->low, digits),
+                                  visits::signed_figure(change.all->high, digits))
                     : "not known";
 }
 
@@ -64,10 +65,11 @@ void print_table(const visits::Comparison& comparison) {
     std::cout << fmt::format("{:<56} {:>16}", name, text(one.values.front()));
     if (several) std::cout << fmt::format(" {:>16}", text(one.values.back()));
     if (const auto& change = one.changes.back())
-      std::cout << fmt::format(" {:>10} {:>18}  {}", visits::signed_figure(change->value),
+      std::cout << fmt::format(" {:>10} {:>18}  {}",
+                               visits::signed_figure(change->value, visits::digits_of(*change)),
                                interval(*change), words_of(change->beyond));
     else if (one.values.front() && one.values.back() && several)
-      std::cout << fmt::format(" {:>10}", "not compared");
+      std::cout << fmt::format(" {:>12}", "not compared");
     std::cout << '\n';
   }
 }

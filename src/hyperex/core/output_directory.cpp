@@ -41,8 +41,8 @@ bool is_named_as_a_file(const fs::path& folder) {
   constexpr const char* files[] = {".glb", ".gltf", ".html", ".json", ".csv", ".png", ".ply",
                                    ".obj", ".stl",  ".toml", ".vtu",  ".pvd", ".zip", ".webm",
                                    ".mp4", ".txt",  ".pdf",  ".trc",  ".jpg"};
-  const std::string ending = ending_of(folder);
-  return std::ranges::any_of(files, [&](const char* one) { return ending == one; });
+  const std::string extension = ending_of(folder);
+  return std::ranges::any_of(files, [&](const char* one) { return extension == one; });
 }
 
 bool is_or_holds(const fs::path& folder, const fs::path& path) {

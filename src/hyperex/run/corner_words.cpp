@@ -71,10 +71,11 @@ std::string difference_words(const Json& corners, double shown_mm, double exact_
 /// A corner of the mouth in base and in a variant; what is not known is not a number.
 struct CornerChange {
   double from_mm, to_mm, band_mm;
-  double decided;     ///< whether the change from rest exceeds its band, 1 or 0
-  bool jitter_known;  ///< else the band is not, or it is a lower bound where it is of the budget
-  bool budgeted;      ///< the band is that of the error budget
-  double along_mm;    ///< in the unchanged direction
+  double twin_band_mm;  ///< by one other mesh and the jitter, also where there is an error budget
+  double decided;       ///< whether the change from rest exceeds its band, 1 or 0
+  bool jitter_known;    ///< else the band is not, or it is a lower bound where it is of the budget
+  bool budgeted;        ///< the band is that of the error budget
+  double along_mm;      ///< in the unchanged direction
   double along_band_mm, along_decided;
   double far_mm, far_s;
   bool weaker;  ///< some muscle of that side pulls less than in base
@@ -89,10 +90,15 @@ std::string moved_words(double mm, const std::string& size, bool weaker) {
 /// Where the greatest excursions differ by much less than the paths do: ", but up to 3.7 mm from
 /// its place without the change, at 1.93 s".
 std::string path_clause(const CornerChange& c, double by_mm) {
-  const double least = std::fmax(0.3, std::isnan(c.band_mm) ? 0 : c.band_mm);
+  const double least = std::fmax(0.3, std::isnan(c.twin_band_mm) ? 0 : c.twin_band_mm);
   if (!(c.far_mm > least) || c.far_mm < 1.5 * std::abs(by_mm)) return "";
   return fmt::format(", but up to {:.1f} mm from its place without the change, at {:.2f} s",
                      c.far_mm, c.far_s);
+}
+
+/// Whether the change of the distance from rest is within its band.
+bool is_undecided(const CornerChange& c) {
+  return std::abs(c.to_mm - c.from_mm) < c.band_mm || c.decided == 0;
 }
 
 /// The change in the unchanged direction with its own band: "5.9 mm less (+- 0.8)". The error
@@ -102,7 +108,8 @@ std::string along_words(const CornerChange& c) {
   if (std::abs(by) < kSame_mm) return "unchanged";
   const bool known = !std::isnan(c.along_band_mm) && !c.budgeted;
   const HeldAgainst held = held_against(by, exact, known ? c.along_band_mm : 0);
-  const bool undecided = std::abs(exact) < c.along_band_mm || c.along_decided == 0;
+  const bool undecided =
+      c.budgeted ? is_undecided(c) : std::abs(exact) < c.along_band_mm || c.along_decided == 0;
   return fmt::format("{}{} mm {}{}{}", undecided ? "undecided: " : "", held.own,
                      by < 0 ? "less" : "more", known ? fmt::format(" (+- {})", held.limit) : "",
                      undecided || c.jitter_known ? "" : " (cannot tell)");
@@ -137,7 +144,7 @@ std::string change_words(const CornerChange& c) {
                            : c.budgeted
                                ? fmt::format(" ({})", budget_band(c.jitter_known, held.limit))
                                : fmt::format(" (+- {})", held.limit);
-  if (std::abs(exact) < c.band_mm || c.decided == 0)
+  if (is_undecided(c))
     return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + band +
            hidden;
   const std::string cannot_tell =
@@ -198,6 +205,7 @@ std::string side_words(const Json& summary, const Json& variant, const std::stri
   const Json weaker = variant.value("weaker_sides", Json::array());
   CornerChange c{number(base, "_mm"),
                  number(variant, "_mm"),
+                 number(variant, "_band_mm"),
                  number(variant, "_band_mm"),
                  number(variant, "_decided"),
                  variant.value("jitter_known", true),

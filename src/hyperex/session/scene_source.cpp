@@ -110,7 +110,9 @@ void keep_places(const scene::Scene& before, const std::string& changed,
                  std::map<std::string, scene::Origin>& places) {
   for (auto& [key, place] : places) {
     const auto found = before.origins.find(key);
-    const bool is_new = !changed.empty() && key.starts_with(changed);
+    const bool is_new =
+        key == changed ||
+        (!changed.empty() && (key.starts_with(changed + ".") || key.starts_with(changed + "[")));
     place = found == before.origins.end() || is_new ? scene::Origin{} : found->second;
   }
 }
@@ -173,7 +175,7 @@ void SceneSource::read(const std::string& changed, const std::string& variant) {
 SceneSource SceneSource::with_value(const std::string& key, const Value& value) const {
   SceneSource next = *this;
   next.text_ = scene::with_value(text_now(), known_key(key).name, parsed(value));
-  next.read(key);
+  next.read(known_key(key).name);
   return next;
 }
 

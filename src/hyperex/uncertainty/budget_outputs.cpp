@@ -77,7 +77,8 @@ Json json_of(const BudgetedFigure& figure) {
   if (figure.side) json["side"] = side_of(figure);
   json["value_mm"] = figure.value_mm;
   json["shown_mm"] = figure.shown_mm();
-  json["half_width_95_mm"] = figure.half_width_95_mm();
+  const double half_mm = figure.half_width_95_mm();  // NaN: a part is not known
+  json["half_width_95_mm"] = std::isnan(half_mm) ? Json() : Json(half_mm);
   json["known_half_width_95_mm"] = figure.known_half_width_95_mm();
   if (figure.kind != FigureKind::excursion)
     json["decided"] = figure.decided() ? Json(*figure.decided()) : Json();

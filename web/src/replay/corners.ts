@@ -24,6 +24,8 @@ export interface Corners {
   cannotTell: boolean;
   /** floorMm, undecided and cannotTell are those of the error budget. */
   budgeted: boolean;
+  /** A part of the error budget is not known, and floorMm is that of the others. */
+  lowerBound: boolean;
   /** Both are driven points: they follow the recording in any tissue. */
   driven: boolean;
 }
@@ -63,6 +65,7 @@ export function cornersOf(replay: Replay, face: number): Corners | null {
       undecided: budget ? budget.decided === false : pair?.undecided ?? Math.abs(leftMm - rightMm) < floorMm,
       cannotTell: budget ? isOpen(budget) : pair?.undecided === null && isRecorded('L') && isRecorded('R'),
       budgeted: budget !== null,
+      lowerBound: budget !== null && budget.half_width_95_mm === null,
       // The corner has either name.
       driven: names.some(([a, b]) => driven.names.includes(a) && driven.names.includes(b)),
     };
@@ -177,7 +180,7 @@ export function cornerChange(replay: Replay, face: number, side: Side): CornerCh
   return {
     side, fromMm, toMm: unchanged ? fromMm : toMm, byMm, bandIs: 'band', ...judged(row, corner, to - from), ...budget, alongMm: roundedMm(alongMm), sameWay,
     // The error budget has no interval for it, and a band that leaves most errors out would look like one.
-    along: budget.bandIs ? { ...along, bandMm: null } : along,
+    along: budget.bandIs ? { ...along, bandMm: null, undecided: budget.undecided ?? false, cannotTell: budget.cannotTell ?? false } : along,
     weaker: Array.isArray(weak) && weak.includes(letterOf[side]),
   };
 }
@@ -213,9 +216,9 @@ function alongWords(change: CornerChange): string {
 
 /** "in the unchanged direction 5.9 ± 0.8 mm less", where the corner turns aside; else empty. */
 export function directionWords(change: CornerChange): string {
-  const { alongMm, sameWay, along: { bandMm, undecided, cannotTell } } = change;
+  const { alongMm, sameWay, bandIs, along: { bandMm, undecided, cannotTell } } = change;
   if (sameWay) return '';
-  const judged = bandMm !== null || undecided || cannotTell;
+  const judged = bandMm !== null || bandIs !== 'band' || undecided || cannotTell;
   if (alongMm < 0) return `${mm(-alongMm)} against the unchanged direction${judged ? `, ${alongWords(change)}` : ''}`;
   return `in the unchanged direction ${asideMm(change) === 0 ? 'as far as there' : alongWords(change)}`;
 }
@@ -254,7 +257,7 @@ function sidesFigures(corners: Corners): string {
   const { own, limit } = apartAgainstFloor(corners);
   if (corners.budgeted) {
     const verdict = corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : '';
-    return `sides differ by ${own}, ${corners.cannotTell ? 'at least' : '95 %:'} ± ${limit}${verdict}`;
+    return `sides differ by ${own}, ${corners.lowerBound ? 'at least' : '95 %:'} ± ${limit}${verdict}`;
   }
   const band = corners.floorMm > 0 ? ` ± ${limit.replace(' mm', '')}` : '';
   return `sides differ by ${own.replace(' mm', '')}${band} mm${corners.undecided ? ', undecided' : corners.cannotTell ? ', jitter not known' : ''}`;

@@ -26,8 +26,9 @@ struct HeldLoad {
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
   /// For each column after those of muscles and jaw, the muscles that may make the unexplained
-  /// motion which it holds (FaceParts). It fades as far as all of these fade (common_change()).
-  /// Columns without such muscles, and all where this is empty, stay as they are.
+  /// motion which it holds (FaceParts). It fades, or grows, as far as all of these do
+  /// (common_change()). Columns without such muscles, and all where this is empty, stay as they
+  /// are.
   std::vector<std::vector<int>> makers;
   /// Where muscles drive and the motion goes on after the run: the end of the run, s.
   double until_s = std::numeric_limits<double>::infinity();

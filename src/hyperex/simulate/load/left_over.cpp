@@ -8,7 +8,7 @@
 namespace hyperex::simulate {
 namespace {
 
-/// Allowed error of the compressed residual at the points, as a share of the greatest residual.
+/// Directions of a part that carry less than this share of the greatest residual are left out.
 constexpr double kLeftOverLost = 1e-4;
 
 /// Orthonormal directions of the columns, as many as matter: of more than `least`.

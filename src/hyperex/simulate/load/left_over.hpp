@@ -6,7 +6,7 @@
 namespace hyperex::simulate {
 
 /// What a fit leaves over at points, as directions with time courses, each of one part of the face:
-/// the residual is directions * course.
+/// the residual is directions * course, but for what hardly matters.
 struct LeftOver {
   Eigen::MatrixXd directions;       ///< 3 P x k, orthonormal within a part
   Eigen::MatrixXd course;           ///< k x samples, m

@@ -19,8 +19,8 @@ import { isNumber } from '../tables/figure_table';
 import { changesOf, variantsOf, type VariantRow } from '../variants';
 
 /** Of a difference with the interval of the error budget. */
-function budgetFloorWords({ undecided, cannotTell }: Corners, limit: string): string {
-  const all = `what all errors of the error budget together make (95 %), ${cannotTell ? `at least ${limit}` : limit}`;
+function budgetFloorWords({ undecided, cannotTell, lowerBound }: Corners, limit: string): string {
+  const all = `what all errors of the error budget together make (95 %), ${lowerBound ? `at least ${limit}` : limit}`;
   if (undecided) return `Undecided: the difference of the sides cannot be told from ${all}.`;
   return `The sides differ by more than ${all}.${cannotTell ? ' The jitter of the recording is not known and is missing in it.' : ''}`;
 }
