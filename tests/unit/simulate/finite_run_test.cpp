@@ -102,6 +102,16 @@ TEST_F(FiniteRun, GainsActOnForcesAsRecorded) {
       << "in one run that finds its forces by itself";
 }
 
+TEST_F(FiniteRun, WithoutMusclesOnASideItsCornerHardlyMoves) {
+  options_.drive.by = DriveBy::muscles;
+  Simulator simulator = made(options_, smile(1));
+  const auto base = simulator.run();
+  simulator.hold_load();
+  options_.muscles.gains = {{"side_L", 0}};
+  simulator.set_options(options_);
+  EXPECT_LT(way(simulator.run(), "ibug68_54"), 0.2 * way(base, "ibug68_54"));
+}
+
 TEST_F(FiniteRun, StifferTissueAnswersTheSameForcesWithLess) {
   options_.drive.by = DriveBy::muscles;
   Simulator simulator = made(options_, smile(1));

@@ -220,6 +220,25 @@ TEST_F(LoadOfMuscles, UnexplainedMotionFadesWithItsMakers) {
   expect_at_samples(load_.force * course);
 }
 
+TEST_F(LoadOfMuscles, ForcesOfFiniteStrainFadeWithTheMakersOfTheirParts) {
+  NodalCourse forces;
+  forces.nodes = {4, 9};
+  forces.take(0, Eigen::VectorXd::Zero(6));
+  forces.take(1, Eigen::VectorXd::Ones(6));
+  options_.gains = {{"zyg_major_L", 0}, {"malaris_L", 0.5}};
+  EXPECT_EQ(patch_forces_with(load_, options_), nullptr);
+  load_.patch_forces = std::make_shared<const NodalCourse>(forces);
+  EXPECT_EQ(patch_forces_with(load_, options_), load_.patch_forces) << "of no part";
+  load_.part_makers = {{0, 2}, {1}, {}};
+  load_.patch_shares = Eigen::MatrixXd{{0.8, 0.1, 0.1}, {0, 1, 0}};
+  const auto weak = patch_forces_with(load_, options_);
+  EXPECT_EQ(weak->nodes, forces.nodes);
+  EXPECT_LT((weak->value[1] - (Eigen::VectorXd(6) << 0.6, 0.6, 0.6, 1, 1, 1).finished()).norm(),
+            1e-12);
+  options_.gains.clear();
+  EXPECT_EQ(patch_forces_with(load_, options_), load_.patch_forces);
+}
+
 TEST_F(LoadOfMuscles, MirroredEachTakesItsCounterpartsCourse) {
   options_.mirrored = true;
   options_.gains = {{"malaris_L", 0.5}};  // of the muscle that acts, after mirroring

@@ -217,6 +217,22 @@ Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, dou
   return out;
 }
 
+std::shared_ptr<const NodalCourse> patch_forces_with(const HeldLoad& load,
+                                                     const MuscleOptions& options) {
+  if (!load.patch_forces || load.part_makers.empty() || options.gains.empty())
+    return load.patch_forces;
+  const Eigen::VectorXd change =
+      muscle_gains(load.muscles.names, options.gains, options.table()).array() - 1;
+  Eigen::VectorXd of_part(Eigen::Index(load.part_makers.size()));
+  for (std::size_t part = 0; part < load.part_makers.size(); ++part)
+    of_part[Eigen::Index(part)] = common_change(change, load.part_makers[part]);
+  const Eigen::VectorXd factor = (load.patch_shares * of_part).array() + 1;
+  auto out = std::make_shared<NodalCourse>(*load.patch_forces);
+  for (Eigen::VectorXd& value : out->value)
+    for (Eigen::Index i = 0; i < factor.size(); ++i) value.segment<3>(3 * i) *= factor[i];
+  return out;
+}
+
 fem::Drive drive_of(const HeldLoad& load, const MuscleOptions& options, double dt_s, int steps,
                     double tolerance, Eigen::Index prescribed) {
   Eigen::MatrixXd course = changed_course(load, options);

@@ -37,6 +37,10 @@ struct HeldLoad {
   /// where the load puts them at small strain. The run that first needs these forces finds them.
   std::vector<int> patch_nodes;
   std::shared_ptr<const NodalCourse> patch_forces;
+  /// Of each of these nodes the share that each part of the face has in it, and the muscles that
+  /// make a part's motion (FaceParts): the additional forces follow the gains as columns do.
+  Eigen::MatrixXd patch_shares;
+  std::vector<std::vector<int>> part_makers;
 };
 
 /// One factor per muscle: the product of the gains that name it, its branch on its side, or its
@@ -81,6 +85,10 @@ Eigen::Index jaw_row(const HeldLoad& load);
 /// The forces of the load at one instant (3 |nodes|, N), with mirroring and gains, in time as
 /// course_at().
 Eigen::VectorXd force_at(const HeldLoad& load, const MuscleOptions& options, double time_s);
+
+/// The additional forces of finite strain, with gains; null where there are none.
+std::shared_ptr<const NodalCourse> patch_forces_with(const HeldLoad& load,
+                                                     const MuscleOptions& options);
 
 /// The load over a run as few shapes (compressed_drive), in time as course_at(). Nothing that is
 /// prescribed moves.

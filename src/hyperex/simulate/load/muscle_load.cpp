@@ -334,6 +334,8 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
                 tissue_shares(model, driven.few(), options.muscles), motion.rest.rows(), between);
   load.force = std::move(held.force);
   load.patch_nodes = wholly_held(patches);
+  load.patch_shares = parts.shares(at_nodes(load.patch_nodes, model.response()));
+  load.part_makers = makers;
   if (options.muscles.shape_prior)
     add_shapes(mesh, landmarks, motion, options, model, driven,
                {std::move(held.moved), load.course, seen}, parts, makers, between, load);

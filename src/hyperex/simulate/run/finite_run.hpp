@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+#include <memory>
 #include <vector>
 
 #include "hyperex/fem/form/assembler.hpp"
@@ -16,7 +17,8 @@ struct FiniteDrive {
   double step_s = 0.002;
   fem::Drive still;    ///< prescribed displacements, and forces that keep their direction
   fem::Drive turning;  ///< forces that turn with the tissue about them; no shapes: none
-  const NodalCourse* forces = nullptr;  ///< N, further forces that keep their direction; null: none
+  std::shared_ptr<const NodalCourse>
+      forces;  ///< N, further ones that keep their direction, or null
   /// The face at rest: constant prescribed displacements (m, as `still`) and forces (N, all
   /// unknowns). The run begins in static equilibrium under them. Empty: none.
   Eigen::VectorXd rest_prescribed, rest_force;

@@ -62,7 +62,7 @@ FiniteDrive Simulator::Impl::finite_drive(const MuscleOptions& muscles,
   drive.turning = drive_by(with_columns(load, turning), muscles);
   for (char& turns : turning) turns = !turns;
   drive.still = drive_by(with_columns(load, turning), muscles);
-  if (!places) drive.forces = stages.load->patch_forces.get();
+  if (!places) drive.forces = patch_forces_with(load, muscles);
   return drive;
 }
 
@@ -113,7 +113,7 @@ Solution Simulator::Impl::solve_finite(const std::vector<double>& times) {
                     end_s(), stages.load->patch_forces->time_s.back()));
   if (!by_forces() || held)
     return std::move(run_at_finite_strain(options.muscles, false, times).solution);
-  // The forces that hold the patches are those of the motion as recorded, independent of the gains.
+  // The forces that hold the patches are found by the motion as recorded, whatever the gains.
   FiniteSolution recorded = run_at_finite_strain(as_recorded(options.muscles), true, times);
   HeldLoad whole = stages.load.value();
   whole.patch_forces = std::make_shared<const NodalCourse>(std::move(recorded.reactions));
