@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/metrics/nan.hpp"
 
@@ -13,6 +15,10 @@ bool has_place(const motion::Motion& recorded, const std::string& name) {
   const std::string place = face::place_name(name);
   return std::ranges::any_of(
       recorded.names, [&](const std::string& one) { return face::place_name(one) == place; });
+}
+
+double shows_m(const std::string& name) {
+  return face::is_known_landmark(face::full_name(name)) ? kLandmarkShows_m : kMarkerShows_m;
 }
 
 void forget(std::vector<double>& values) {
@@ -63,7 +69,8 @@ bool is_recorded(const motion::Motion& recorded, const std::string& name, const 
   if (has_place(recorded, name)) return true;
   const Points& first = recorded.positions.front();
   for (Eigen::Index p = 0; p < first.rows(); ++p)
-    if ((first.row(p).transpose() - rest).norm() <= kShows_m) return true;
+    if ((first.row(p).transpose() - rest).norm() <= shows_m(recorded.names[std::size_t(p)]))
+      return true;
   return false;
 }
 

@@ -8,12 +8,13 @@
 
 namespace hyperex::metrics {
 
-/// A recorded point this near to a corner of the mouth at rest shows it, whatever its name: markers
-/// are often glued beside the corners (10 mm in AnimFace). The middle of a lip is farther off.
-inline constexpr double kShows_m = 15e-3;
+/// A recorded point this near to a corner of the mouth at rest shows it: a landmark of another
+/// place, and a marker of any other name. Markers are often glued beside the corners (10 mm in
+/// AnimFace).
+inline constexpr double kLandmarkShows_m = 5e-3, kMarkerShows_m = 15e-3;
 
 /// Whether a recording shows a corner of the mouth that lies at `rest`: a point has its name or
-/// another name of its place (face::place_name), or lies within kShows_m of it in the first sample.
+/// another name of its place (face::place_name), or lies as near to it in the first sample.
 /// `recorded`: in the frame of `rest`.
 bool is_recorded(const motion::Motion& recorded, const std::string& name, const Vec3& rest);
 

@@ -125,15 +125,15 @@ TEST(MusclePicture, SaysWhatAnActivationBelowZeroMeans) {
   const render::Image none = draw(0), rounded = draw(-0.001), relaxed = draw(-0.3);
   ASSERT_EQ(none.height, relaxed.height);
   int first = none.height, last = -1;
-  bool same = true;
+  bool all_equal = true;
   for (int y = 0; y < none.height; ++y)
     for (int x = 0; x < none.width; ++x) {
-      same &= std::equal(none.pixel(x, y), none.pixel(x, y) + 3, rounded.pixel(x, y));
+      all_equal &= std::equal(none.pixel(x, y), none.pixel(x, y) + 3, rounded.pixel(x, y));
       if (std::equal(none.pixel(x, y), none.pixel(x, y) + 3, relaxed.pixel(x, y))) continue;
       first = std::min(first, y);
       last = std::max(last, y);
     }
-  EXPECT_TRUE(same);
+  EXPECT_TRUE(all_equal);
   EXPECT_GT(last - first, 100) << "the figure in its row, and the line below the list";
 }
 

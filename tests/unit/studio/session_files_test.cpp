@@ -55,7 +55,7 @@ TEST(RunStudio, AFolderIsNoMissingFile) {
 }
 
 TEST(StudioFolder, ForSavedFilesIsMade) {
-  const hyperex::test::TestFolder folder;
+  const TestFolder folder;
   make_folder_for_saved_files(folder / "new" / "deep");
   EXPECT_TRUE(fs::is_directory(folder / "new" / "deep"));
   EXPECT_NO_THROW(make_folder_for_saved_files(folder / "new")) << "there already";

@@ -178,10 +178,9 @@ Eigen::MatrixXd at_nodes(const std::vector<int>& nodes, const Eigen::MatrixXd& n
   return out;
 }
 
-/// Adds rows to HeldLoad::makers for columns that belong to these parts. `makers`: of FaceParts.
-void add_makers(const std::vector<Eigen::Index>& part, const std::vector<std::vector<int>>& makers,
-                HeldLoad& load) {
-  for (const Eigen::Index p : part) load.makers.push_back(makers[std::size_t(p)]);
+/// Adds the makers of these parts to HeldLoad::makers, one per column.
+void add_makers(const std::vector<Eigen::Index>& parts, HeldLoad& load) {
+  for (const Eigen::Index part : parts) load.makers.push_back(load.part_makers[std::size_t(part)]);
 }
 
 /// Places that the residual displacement does not move: beside the ears, the root of the nose and
@@ -227,12 +226,11 @@ std::vector<int> wholly_held(const DrivenSkin& patches) {
 }
 
 /// Adds forces that correct the displacement of the skin between the points, `skin`, towards that
-/// of shapes of real faces, divided among the `parts` of the face. `makers`: of FaceParts.
+/// of shapes of real faces, divided among the `parts` of the face.
 void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
                 const AlignedMotion& motion, const SimulationOptions& options,
                 const MuscleModel& model, const Driven& driven, const LoadedSkin& skin,
-                const FaceParts& parts, const std::vector<std::vector<int>>& makers,
-                const std::function<void()>& between, HeldLoad& load) {
+                const FaceParts& parts, const std::function<void()>& between, HeldLoad& load) {
   const Vec3 up = face::face_frame(landmarks).y;
   const DriveField field(driven.points, unmoved_places(driven.points, landmarks), mesh, up,
                          lip_parting(motion, driven.rows, up));
@@ -264,7 +262,7 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   load.course.conservativeResize(own + held.force.cols(), Eigen::NoChange);
   load.course.bottomRows(held.force.cols()) = correction.course.replicate(shares.cols(), 1);
   for (Eigen::Index part = 0; part < shares.cols(); ++part)
-    add_makers(std::vector(std::size_t(directions), part), makers, load);
+    add_makers(std::vector(std::size_t(directions), part), load);
 }
 
 }  // namespace
@@ -324,9 +322,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
 
   const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));
   const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());
-  const std::vector<std::vector<int>> makers = parts.makers(of_points);
+  load.part_makers = parts.makers(of_points);
   const LeftOver rest = divided(left_over, parts.shares(of_points));
-  add_makers(rest.parts, makers, load);
+  add_makers(rest.parts, load);
   load.course.resize(course.rows() + rest.course.rows(), samples);
   load.course << course, rest.course;
   HeldShape held =
@@ -335,10 +333,9 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   load.force = std::move(held.force);
   load.patch_nodes = wholly_held(patches);
   load.patch_shares = parts.shares(at_nodes(load.patch_nodes, model.response()));
-  load.part_makers = makers;
   if (options.muscles.shape_prior)
     add_shapes(mesh, landmarks, motion, options, model, driven,
-               {std::move(held.moved), load.course, seen}, parts, makers, between, load);
+               {std::move(held.moved), load.course, seen}, parts, between, load);
   return load;
 }
 
