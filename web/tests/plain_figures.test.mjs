@@ -161,11 +161,11 @@ test('faces whose S stays below its floor are not ordered by it', async () => {
   });
   const under = await made(Math.exp(9));
   await under.page.keyboard.press('2');
-  assert.doesNotMatch(await caption(under.page).textContent(), /more symmetric/);
+  assert.doesNotMatch(await caption(under.page).textContent(), /more symmetric than/);
   await under.close();
   const above = await made(1e-9);
   await above.page.keyboard.press('2');
-  assert.match(await caption(above.page).textContent(), /more symmetric/);
+  assert.match(await caption(above.page).textContent(), /more symmetric than/);
   await above.close();
 });
 
