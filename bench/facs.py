@@ -75,7 +75,7 @@ def write_scene(data, out, subject, points):
         stream.write(
             f'scan = {{ file = "{scan}_neutral_scan.ply", unit = "mm", landmarks = "{scan}_landmarks.json" }}\n'
             f'motion = {{ file = "{subject}_facs_mm.csv", rigid_points = [{rigid}] }}\n'
-            f'drive = {{ by = "muscles"{driven} }}\ntime = {{ end_s = 0.1 }}\n'
+            f'drive = {{ by = "muscles"{driven} }}\ntime = {{ frame_rate_hz = 1, step_s = 0.05 }}\n'
             "output = { vtu = false, glb = false, report = false }\n"
         )
     return scene
