@@ -94,7 +94,7 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
   EXPECT_THAT(scene, HasSubstr("rigid_points = [\"head_1\", \"head_2\", \"head_3\", "
                                "\"head_4\", \"head_5\", \"head_6\"]"));
   EXPECT_THAT(scene, HasSubstr("# These keep their distances from each other"));
-  // A scene without them is told of them, and so are those without a scene.
+  // check, symmetry and visits name these points where no option uses them.
   const std::string sentence =
       "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
       "as points of the skull do, and are not used; ";

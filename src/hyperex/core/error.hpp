@@ -32,7 +32,7 @@ class InputError : public std::runtime_error {
   /// Complete sentences, one per line.
   explicit InputError(const std::string& sentences);
 
-  /// The problems that what() tells; none where it was made of sentences.
+  /// The problems listed by what(). Empty if the error was constructed from sentences.
   const std::vector<InputProblem>& problems() const { return *problems_; }
 
  private:

@@ -78,6 +78,12 @@ void refuse_scan(const std::filesystem::path& file) {
                        "scan");
 }
 
+/// Refuses a table that another option reads.
+[[noreturn]] void refuse_other_table(const std::filesystem::path& file, const std::string& what,
+                                     const std::string& option) {
+  throw motion::OptionError(file.string(), what + ": expected it as ", option, "");
+}
+
 bool has_action_units(const io::CsvTable& table) {
   return table.find("AU12_r") || table.find("AU26_r");
 }
@@ -175,10 +181,8 @@ BlendShapes read_arkit(const std::filesystem::path& file) {
     return name == "Timecode" ? timecode_frames(cell) : std::nullopt;
   });
   if (has_action_units(table) && !has_blend_shapes(table))
-    throw motion::OptionError(file.string(),
-                              "a table of action units by OpenFace, not of ARKit's blend shapes: "
-                              "expected it as ",
-                              "openface", "");
+    refuse_other_table(file, "a table of action units by OpenFace, not of ARKit's blend shapes",
+                       "openface");
   BlendShapes out;
   out.file = file;
   out.lines = table.lines;
@@ -222,10 +226,8 @@ BlendShapes read_openface(const std::filesystem::path& file) {
   refuse_scan(file);
   const io::CsvTable table = io::read_csv(file);
   if (has_blend_shapes(table) && !has_action_units(table))
-    throw motion::OptionError(file.string(),
-                              "a table of ARKit's blend shapes, not of OpenFace's action units: "
-                              "expected it as ",
-                              "arkit", "");
+    refuse_other_table(file, "a table of ARKit's blend shapes, not of OpenFace's action units",
+                       "arkit");
   BlendShapes out;
   out.file = file;
   out.lines = table.lines;

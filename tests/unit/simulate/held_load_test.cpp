@@ -197,7 +197,8 @@ TEST_F(LoadOfMuscles, UnexplainedMotionFadesWithItsMakers) {
   load_.force.rightCols(27 - 16).setRandom();
   load_.course.bottomRows(27 - 16).setRandom();
   load_.course.col(0).setZero();
-  load_.makers = {{0, 2}, {1}, {}};
+  load_.parts = {0, 1, 2};
+  load_.part_makers = {{0, 2}, {1}, {}};
   options_.gains = {{"zyg_major_L", 0.2}, {"malaris_L", 0.5}, {"zyg_major_R", 0}};
   Eigen::MatrixXd course = load_.course;
   for (const int band : {0, 6}) {

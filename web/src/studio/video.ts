@@ -92,8 +92,8 @@ export class ViewVideo {
     recorder.start();
   }
 
-  /** As broad as the stage; `worded`: with its title, and with the colour bar of what has one. Codecs want even
-   *  numbers. */
+  /** A canvas of the stage's width. If `worded`, it has a strip for the title, and one for the colour bar if a colour
+   *  scale is shown. Width and height of the stage are rounded down to even numbers, which video codecs require. */
   private sheet(worded: boolean): Sheet {
     const host = at('canvas-host');
     const canvas = document.createElement('canvas');

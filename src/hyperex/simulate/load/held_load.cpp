@@ -188,6 +188,14 @@ Eigen::Index unexplained_row(const HeldLoad& load) {
   return jaw_row(load) + kJawRows;
 }
 
+/// By how much the unexplained motion of each part changes with the muscles.
+Eigen::VectorXd changes_of_parts(const HeldLoad& load, const Eigen::VectorXd& change) {
+  Eigen::VectorXd out(Eigen::Index(load.part_makers.size()));
+  for (std::size_t part = 0; part < load.part_makers.size(); ++part)
+    out[Eigen::Index(part)] = common_change(change, load.part_makers[part]);
+  return out;
+}
+
 /// The course after mirroring and gains.
 Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& options) {
   Eigen::MatrixXd course = load.course;
@@ -201,9 +209,9 @@ Eigen::MatrixXd changed_course(const HeldLoad& load, const MuscleOptions& option
     course.row(m) = factor[own] * load.course.row(m - own + from);
   }
   const Eigen::VectorXd change = factor.array() - 1;
-  for (std::size_t i = 0; i < load.makers.size(); ++i)
-    course.row(unexplained_row(load) + Eigen::Index(i)) *=
-        1 + common_change(change, load.makers[i]);
+  const Eigen::VectorXd of_part = changes_of_parts(load, change);
+  for (std::size_t i = 0; i < load.parts.size(); ++i)
+    course.row(unexplained_row(load) + Eigen::Index(i)) *= 1 + of_part[load.parts[i]];
   return course;
 }
 
@@ -223,10 +231,7 @@ std::shared_ptr<const NodalCourse> patch_forces_with(const HeldLoad& load,
     return load.patch_forces;
   const Eigen::VectorXd change =
       muscle_gains(load.muscles.names, options.gains, options.table()).array() - 1;
-  Eigen::VectorXd of_part(Eigen::Index(load.part_makers.size()));
-  for (std::size_t part = 0; part < load.part_makers.size(); ++part)
-    of_part[Eigen::Index(part)] = common_change(change, load.part_makers[part]);
-  const Eigen::VectorXd factor = (load.patch_shares * of_part).array() + 1;
+  const Eigen::VectorXd factor = (load.patch_shares * changes_of_parts(load, change)).array() + 1;
   auto out = std::make_shared<NodalCourse>(*load.patch_forces);
   for (Eigen::VectorXd& value : out->value)
     for (Eigen::Index i = 0; i < factor.size(); ++i) value.segment<3>(3 * i) *= factor[i];
@@ -258,8 +263,9 @@ HeldLoad added_by_gains(const HeldLoad& load, const Eigen::VectorXd& change) {
   };
   for (Eigen::Index m = 0; m < (load.wide_bands ? 2 : 1) * change.size(); ++m)
     add(m, change[m % change.size()]);
-  for (std::size_t i = 0; i < load.makers.size(); ++i)
-    add(unexplained_row(load) + Eigen::Index(i), common_change(change, load.makers[i]));
+  const Eigen::VectorXd of_part = changes_of_parts(load, change);
+  for (std::size_t i = 0; i < load.parts.size(); ++i)
+    add(unexplained_row(load) + Eigen::Index(i), of_part[load.parts[i]]);
   HeldLoad out;
   out.time_s = load.time_s;
   out.smooth_up_to_s = load.smooth_up_to_s;

@@ -25,11 +25,12 @@ struct HeldLoad {
   /// band per muscle.
   bool wide_bands = false;
   MuscleCourse muscles;  ///< no names where there are none
-  /// For each column after those of muscles and jaw, the muscles that may make the unexplained
-  /// motion which it holds (FaceParts). It fades, or grows, as far as all of these do
-  /// (common_change()). Columns without such muscles, and all where this is empty, stay as they
+  /// Each column after those of muscles and jaw holds unexplained motion of a part of the face
+  /// (FaceParts). It fades, or grows, as far as all muscles do that may make that part's motion
+  /// (common_change()). Parts without such muscles, and all where these are empty, stay as they
   /// are.
-  std::vector<std::vector<int>> makers;
+  std::vector<Eigen::Index> parts;            ///< of these columns
+  std::vector<std::vector<int>> part_makers;  ///< of each part, such muscles
   /// Where muscles drive and the motion goes on after the run: the end of the run, s.
   double until_s = std::numeric_limits<double>::infinity();
   double greatest_opening_deg = 0;  ///< of the jaw, by the points; muscles have their own course
@@ -37,10 +38,9 @@ struct HeldLoad {
   /// where the load puts them at small strain. The run that first needs these forces finds them.
   std::vector<int> patch_nodes;
   std::shared_ptr<const NodalCourse> patch_forces;
-  /// Of each of these nodes the share that each part of the face has in it, and the muscles that
-  /// make a part's motion (FaceParts): the additional forces follow the gains as columns do.
+  /// Of each of these nodes the share that each part of the face has in it: the additional forces
+  /// follow the gains as columns do.
   Eigen::MatrixXd patch_shares;
-  std::vector<std::vector<int>> part_makers;
 };
 
 /// One factor per muscle: the product of the gains that name it, its branch on its side, or its

@@ -11,7 +11,7 @@ namespace {
 /// Directions of a part that carry less than this share of the greatest residual are left out.
 constexpr double kLeftOverLost = 1e-4;
 
-/// Orthonormal directions of the columns, as many as matter: of more than `least`.
+/// Principal directions of the columns, orthonormal, without those of size `least` or less.
 Eigen::MatrixXd directions_of(const Eigen::MatrixXd& columns, double least) {
   const PrincipalDirections all = principal_directions(columns);
   Eigen::Index kept = 0;

@@ -178,11 +178,6 @@ Eigen::MatrixXd at_nodes(const std::vector<int>& nodes, const Eigen::MatrixXd& n
   return out;
 }
 
-/// Adds the makers of these parts to HeldLoad::makers, one per column.
-void add_makers(const std::vector<Eigen::Index>& parts, HeldLoad& load) {
-  for (const Eigen::Index part : parts) load.makers.push_back(load.part_makers[std::size_t(part)]);
-}
-
 /// Places that the residual displacement does not move: beside the ears, the root of the nose and
 /// the middles of the brows, without those near a driven point.
 std::vector<Vec3> unmoved_places(const std::vector<DrivenPoint>& points,
@@ -262,13 +257,13 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
   load.course.conservativeResize(own + held.force.cols(), Eigen::NoChange);
   load.course.bottomRows(held.force.cols()) = correction.course.replicate(shares.cols(), 1);
   for (Eigen::Index part = 0; part < shares.cols(); ++part)
-    add_makers(std::vector(std::size_t(directions), part), load);
+    load.parts.insert(load.parts.end(), std::size_t(directions), part);
 }
 
 }  // namespace
 
 Eigen::Index samples_of_run(const std::vector<double>& time_s, const TimeOptions& time) {
-  // The slope of a spline depends on each further sample by 0.27 of what it does on the one before.
+  // The influence of a sample on a spline's slope falls by a factor of 0.27 per sample of distance.
   constexpr Eigen::Index of_the_curve = 16;
   const auto all = Eigen::Index(time_s.size());
   if (time.end_s <= 0) return all;
@@ -324,7 +319,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());
   load.part_makers = parts.makers(of_points);
   const LeftOver rest = divided(left_over, parts.shares(of_points));
-  add_makers(rest.parts, load);
+  load.parts = rest.parts;
   load.course.resize(course.rows() + rest.course.rows(), samples);
   load.course << course, rest.course;
   HeldShape held =

@@ -40,7 +40,7 @@ function largestS(replay: Replay, face: number): number | null {
   return values.length > 0 ? Math.max(...values) : null;
 }
 
-/** Whether the largest S of a face is above its floor at that time. Below, values are not told apart. */
+/** Whether the largest S of a face exceeds its floor at that time. Smaller values cannot be distinguished. */
 function aboveFloor(replay: Replay, face: number): boolean {
   const curve = replay.faces[face].symmetry;
   if (!curve) return false;

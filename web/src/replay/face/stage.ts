@@ -78,7 +78,7 @@ export class Stage {
     return this.viewer;
   }
 
-  /** The colour scale of what is shown; null where the face has its own colours. */
+  /** The colour scale of the quantity shown. Null if the face is drawn in its own colours. */
   get colours(): Scale | null {
     return this.painting.scale;
   }
