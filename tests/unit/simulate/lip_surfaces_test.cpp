@@ -83,6 +83,16 @@ TEST(LipSurfaces, AllowsWhatOverlapsAtRest) {
   EXPECT_EQ(lips.depth(flat.moved({0, -0.0004, 0})), 0);
 }
 
+TEST(LipSurfaces, AVertexBehindAFoldOfSkinIsNotInside) {
+  FlatLips flat;
+  // The lowest 2 mm of the upper lip are folded up in front of it, as scans have it at the corners.
+  // The lip's skin then has its inner side on both sides, and nothing is between them.
+  for (Eigen::Index v = 0; v < flat.half; ++v)
+    if (auto p = flat.mesh.skin.points.row(v); p.y() < 0.0019) p << p.x(), 0.004 - p.y(), 0.0003;
+  const LipSurfaces lips(flat.mesh, flat.landmarks);
+  EXPECT_EQ(lips.depth(flat.moved({0.0001, 0.0031, -0.0005})), 0);
+}
+
 TEST(LipSurfaces, NothingToMeasureWithoutLips) {
   FlatLips flat;
   for (auto& [name, p] : flat.landmarks) p += Vec3(1, 1, 1);

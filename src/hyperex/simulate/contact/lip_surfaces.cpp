@@ -16,8 +16,9 @@ namespace {
 
 using Eigen::Index;
 using Box = Eigen::AlignedBox3d;
-constexpr double kOnEdge = 1e-6;      // a foot's weight: it lies on the edge opposite
-constexpr double kPlain_m = 1e-3;     // deeper, skin crumpled at the rim could be taken for a lip
+constexpr double kOnEdge = 1e-6;  // a foot's weight: it lies on the edge opposite
+// Deeper, the normal of the nearest place is not trusted alone: skin is folded at the corners.
+constexpr double kPlain_m = 2e-4;
 constexpr double kTouching_m = 1e-6;  // nearer, the direction to the foot is rounding
 
 Box grown(const Box& box, double by) {
@@ -204,10 +205,12 @@ std::optional<Vec3> LipSurfaces::outward_at(const Points& points, std::size_t tr
   return normal(f);
 }
 
-/// Whether who looks forward from `p` sees the upper lip's skin from behind. What goes inwards from
-/// the rim lies along that way and is never seen.
+/// Whether a ray forward from `p` leaves the upper lip more often than it enters it. One that
+/// crosses a fold of skin in front of `p` enters and leaves. The part that goes inwards from the
+/// rim lies along the ray and is never crossed.
 bool LipSurfaces::is_behind(const Points& points, const Vec3& p) const {
   const Vec3 x = forward_.unitOrthogonal(), y = forward_.cross(x);
+  int leaves = 0;
   for (Index f = 0; f < own_triangles_; ++f) {
     Eigen::Matrix<double, 3, 2> flat;  // the corners as seen from p
     Vec3 ahead;
@@ -223,9 +226,10 @@ bool LipSurfaces::is_behind(const Points& points, const Vec3& p) const {
       weight[k] = a[0] * b[1] - a[1] * b[0];
     }
     if (weight.minCoeff() < 0 && weight.maxCoeff() > 0) continue;
-    if (const double area = weight.sum(); area != 0 && weight.dot(ahead) / area > 0) return true;
+    if (const double area = weight.sum(); area != 0 && weight.dot(ahead) / area > 0)
+      leaves += area > 0 ? 1 : -1;
   }
-  return false;
+  return leaves > 0;
 }
 
 std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& upper,

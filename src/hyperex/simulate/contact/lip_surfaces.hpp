@@ -27,7 +27,8 @@ struct LipPair {
 /// A vertex that is nearest to the rim would be inside as well as outside. So the upper lip's
 /// surface is extended from its rim straight back into the mouth, by `kInward_m`, and the extension
 /// moves with the rim. Distances are to the nearest point. The surface's normal there gives the
-/// sign, and deeper than a millimetre whether the vertex lies behind the upper lip's skin. Lips
+/// sign. Deeper than 0.2 mm a ray forward must also leave the upper lip more often than it enters
+/// it, since at the corners of the mouth the skin is folded and its normals contradict. Lips
 /// that overlap at rest, because of noise or pressure, may overlap as deep as then, each vertex by
 /// itself.
 class LipSurfaces {
