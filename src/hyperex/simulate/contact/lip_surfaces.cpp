@@ -18,7 +18,7 @@ using Eigen::Index;
 using Box = Eigen::AlignedBox3d;
 constexpr double kOnEdge = 1e-6;  // a foot's weight: it lies on the edge opposite
 // Deeper, the normal of the nearest place is not trusted alone: skin is folded at the corners.
-constexpr double kPlain_m = 2e-4;
+constexpr double kPlain_m = 2e-5;
 constexpr double kTouching_m = 1e-6;  // nearer, the direction to the foot is rounding
 
 Box grown(const Box& box, double by) {
@@ -43,6 +43,56 @@ class Outline {
  private:
   Eigen::Matrix3d axes_;
   Box box_;
+};
+
+/// A surface as seen along a direction, for many rays that way.
+class ForwardRays {
+ public:
+  ForwardRays(const Points& points, const Triangles& triangles, Index count, const Vec3& forward)
+      : triangles_(triangles) {
+    axes_ << forward.unitOrthogonal(), Vec3::Zero(), forward;
+    axes_.col(1) = forward.cross(axes_.col(0));
+    seen_ = points * axes_;
+    boxes_.resize(std::size_t(count));
+    for (Index f = 0; f < count; ++f)
+      for (const int v : triangles.row(f)) boxes_[std::size_t(f)].extend(seen_.row(v).transpose());
+  }
+
+  /// Whether the ray from `point` leaves the surface more often than it enters it. One that crosses
+  /// a fold of skin in front of `point` enters and leaves.
+  bool leaves(const Vec3& point) const {
+    const Vec3 p = axes_.transpose() * point;
+    int net = 0;
+    for (std::size_t f = 0; f < boxes_.size(); ++f) {
+      const Box& box = boxes_[f];
+      if (p.x() < box.min().x() || p.x() > box.max().x() || p.y() < box.min().y() ||
+          p.y() > box.max().y() || p.z() > box.max().z())
+        continue;
+      net += crossing(Index(f), p);
+    }
+    return net > 0;
+  }
+
+ private:
+  /// 1: the ray leaves the surface through this triangle; -1: it enters it; 0: neither.
+  int crossing(Index f, const Vec3& p) const {
+    Eigen::Matrix3d to;  // the corners as seen from p, one per column
+    for (int k = 0; k < 3; ++k) to.col(k) = seen_.row(triangles_(f, k)).transpose() - p;
+    Vec3 weight;  // of the corner opposite each edge, times twice the area
+    for (int k = 0; k < 3; ++k) {
+      const auto a = to.col((k + 1) % 3), b = to.col((k + 2) % 3);
+      weight[k] = a.x() * b.y() - a.y() * b.x();
+    }
+    const double area = weight.sum();
+    if (area == 0 || (weight.minCoeff() < 0 && weight.maxCoeff() > 0)) return 0;
+    if (weight.dot(to.row(2)) / area <= 0) return 0;
+    return area > 0 ? 1 : -1;
+  }
+
+  const Triangles& triangles_;
+  Eigen::Matrix3d axes_;
+  Points seen_;  // two coordinates across the direction, one along it
+  std::vector<Box> boxes_;
 };
 
 /// How many triangles have each edge.
@@ -205,33 +255,6 @@ std::optional<Vec3> LipSurfaces::outward_at(const Points& points, std::size_t tr
   return normal(f);
 }
 
-/// Whether a ray forward from `p` leaves the upper lip more often than it enters it. One that
-/// crosses a fold of skin in front of `p` enters and leaves. The part that goes inwards from the
-/// rim lies along the ray and is never crossed.
-bool LipSurfaces::is_behind(const Points& points, const Vec3& p) const {
-  const Vec3 x = forward_.unitOrthogonal(), y = forward_.cross(x);
-  int leaves = 0;
-  for (Index f = 0; f < own_triangles_; ++f) {
-    Eigen::Matrix<double, 3, 2> flat;  // the corners as seen from p
-    Vec3 ahead;
-    for (int k = 0; k < 3; ++k) {
-      const Vec3 to = points.row(triangles_(f, k)).transpose() - p;
-      flat.row(k) << to.dot(x), to.dot(y);
-      ahead[k] = to.dot(forward_);
-    }
-    if (ahead.maxCoeff() < 0) continue;
-    Vec3 weight;  // of the corner opposite each edge, times twice the area
-    for (int k = 0; k < 3; ++k) {
-      const auto a = flat.row((k + 1) % 3), b = flat.row((k + 2) % 3);
-      weight[k] = a[0] * b[1] - a[1] * b[0];
-    }
-    if (weight.minCoeff() < 0 && weight.maxCoeff() > 0) continue;
-    if (const double area = weight.sum(); area != 0 && weight.dot(ahead) / area > 0)
-      leaves += area > 0 ? 1 : -1;
-  }
-  return leaves > 0;
-}
-
 std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& upper,
                                             double within_m) const {
   TriMesh surface{upper(follows_, Eigen::all) + offset_, {}};
@@ -257,10 +280,12 @@ std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& u
   if (kept.empty()) return {};
   surface.triangles = triangles_(kept, Eigen::all);
   const SurfaceTree tree(surface);
-  // Most vertices are outside and far off. Deeper than this a vertex counts only where is_behind(),
-  // and so only within the skin's outline as seen from there.
+  // Most vertices are outside and far off. Deeper than this a vertex counts only where its ray
+  // leaves the upper lip, and so only within the skin's outline as seen from there.
   const double plain_m = std::max(kPlain_m, within_m);
   const Outline outline(upper, forward_);
+  // The part that goes inwards from the rim lies along the rays, and is never crossed.
+  const ForwardRays rays(surface.points, triangles_, own_triangles_, forward_);
   std::vector<LipPair> found;
   for (const int i : near) {
     const Vec3 p = lower.row(i);
@@ -274,7 +299,7 @@ std::vector<LipPair> LipSurfaces::raw_pairs(const Points& lower, const Points& u
     const Vec3 to = p - foot.point;
     const double distance = to.norm();
     const bool outside = to.dot(outward) >= 0;
-    if (!outside && distance > kPlain_m && !is_behind(surface.points, p)) continue;
+    if (!outside && distance > kPlain_m && !rays.leaves(p)) continue;
     LipPair pair;
     pair.gap_m =
         (outside ? distance : -distance) - (allowed_m_.empty() ? 0 : allowed_m_[std::size_t(i)]);

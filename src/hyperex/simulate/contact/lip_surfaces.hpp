@@ -27,7 +27,7 @@ struct LipPair {
 /// A vertex that is nearest to the rim would be inside as well as outside. So the upper lip's
 /// surface is extended from its rim straight back into the mouth, by `kInward_m`, and the extension
 /// moves with the rim. Distances are to the nearest point. The surface's normal there gives the
-/// sign. Deeper than 0.2 mm a ray forward must also leave the upper lip more often than it enters
+/// sign. Deeper than 0.02 mm a ray forward must also leave the upper lip more often than it enters
 /// it, since at the corners of the mouth the skin is folded and its normals contradict. Lips
 /// that overlap at rest, because of noise or pressure, may overlap as deep as then, each vertex by
 /// itself.
@@ -62,7 +62,6 @@ class LipSurfaces {
   std::vector<LipPair> raw_pairs(const Points& lower, const Points& upper, double within_m) const;
   std::optional<Vec3> outward_at(const Points& points, std::size_t triangle,
                                  const Vec3& weights) const;
-  bool is_behind(const Points& points, const Vec3& p) const;
 
   std::vector<int> lower_, upper_;  // of the skin
   Points lower_rest_, upper_rest_;
