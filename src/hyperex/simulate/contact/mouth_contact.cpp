@@ -197,6 +197,49 @@ Eigen::VectorXd MouthContact::force_of(const std::vector<Pair>& pairs,
   return force;
 }
 
+/// G C G': by how much each pair opens under a unit force of each. Only the nodes of these pairs
+/// are needed, a part of nodes_.
+void MouthContact::compliance_between(const std::vector<Pair>& pairs,
+                                      Eigen::MatrixXd& between) const {
+  std::vector<int> place(nodes_.size(), -1), used;
+  std::vector<Row> rows;
+  for (const Pair& pair : pairs) {
+    Row& row = rows.emplace_back(pair.row);
+    for (auto& [node, derivative] : row) {
+      int& at = place[std::size_t(node)];
+      if (at < 0) {
+        at = int(used.size());
+        used.push_back(node);
+      }
+      node = at;
+    }
+  }
+  Eigen::MatrixXd part(3 * used.size(), 3 * used.size());
+  for (std::size_t c = 0; c < used.size(); ++c)
+    for (std::size_t r = 0; r < used.size(); ++r)
+      part.block<3, 3>(3 * Index(r), 3 * Index(c)) =
+          compliance_.block<3, 3>(3 * Index(used[r]), 3 * Index(used[c]));
+  const auto count = Index(pairs.size());
+  between.resize(count, count);
+  Eigen::VectorXd response(part.rows());
+  for (Index k = 0; k < count; ++k) {
+    response.setZero();
+    for (const auto& [node, derivative] : rows[std::size_t(k)])
+      response.noalias() += part.middleCols<3>(3 * Index(node)) * derivative;
+    for (Index i = k; i < count; ++i)
+      between(i, k) = between(k, i) = along(rows[std::size_t(i)], response);
+  }
+}
+
+/// Displacement of nodes() by forces on them, most of which are 0.
+Eigen::VectorXd MouthContact::moved_by(const Eigen::VectorXd& force) const {
+  Eigen::VectorXd moved = Eigen::VectorXd::Zero(compliance_.rows());
+  for (Index node = 0; node < Index(nodes_.size()); ++node)
+    if (const Vec3 f = force.segment<3>(3 * node); !f.isZero(0))
+      moved.noalias() += compliance_.middleCols<3>(3 * node) * f;
+  return moved;
+}
+
 MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   Correction out;
   const Points lower = frame.skin(surfaces_->lower(), Eigen::all).cast<double>();
@@ -207,22 +250,14 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
   out.force.setZero(compliance_.rows());
   out.moved = moved;
   if (out.before_m < kFelt_m) return out;
-  Eigen::MatrixXd response, between;
+  Eigen::MatrixXd between;
   Eigen::VectorXd gap, lambda;
   while (out.rounds < kMostRounds && !pairs.empty()) {
     const auto count = Index(pairs.size());
     gap.resize(count);
-    response.setZero(compliance_.rows(), count);
-    for (Index i = 0; i < count; ++i) {
-      const Pair& pair = pairs[std::size_t(i)];
-      gap[i] = pair.gap_m - along(pair.row, moved);
-      for (const auto& [node, derivative] : pair.row)
-        response.col(i).noalias() += compliance_.middleCols<3>(3 * Index(node)) * derivative;
-    }
-    between.resize(count, count);
     for (Index i = 0; i < count; ++i)
-      for (Index k = 0; k <= i; ++k)
-        between(i, k) = between(k, i) = along(pairs[std::size_t(i)].row, response.col(k));
+      gap[i] = pairs[std::size_t(i)].gap_m - along(pairs[std::size_t(i)].row, moved);
+    compliance_between(pairs, between);
     // Pairs that nothing can move (skin that follows the recording, held nodes) are left as they
     // are.
     std::vector<Pair> movable;
@@ -236,7 +271,8 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
     lambda.setZero(count);
     const fem::Complementarity solved =
         fem::solve_complementarity(between, gap, kSolved_m, kMostSweeps, lambda);
-    moved.noalias() = response * lambda;
+    const Eigen::VectorXd force = force_of(pairs, lambda);
+    moved = moved_by(force);
     ++out.rounds;
     std::vector<Pair> now = pairs_at(frame, lower, upper, moved);
     const double depth = depth_of(now);
@@ -244,7 +280,7 @@ MouthContact::Correction MouthContact::correct(const FreeFrame& frame) const {
       out.after_m = depth;
       out.residual_m = solved.residual;
       out.moved = moved;
-      out.force = force_of(pairs, lambda);
+      out.force = force;
       out.pairs = static_cast<int>((lambda.array() > 0).count());
     }
     if (depth < kSettled_m) break;

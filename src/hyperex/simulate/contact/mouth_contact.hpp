@@ -77,6 +77,8 @@ class MouthContact {
   struct Pair;
   /// Forces on nodes() of pairs that press by lambda (N).
   Eigen::VectorXd force_of(const std::vector<Pair>& pairs, const Eigen::VectorXd& lambda) const;
+  void compliance_between(const std::vector<Pair>& pairs, Eigen::MatrixXd& between) const;
+  Eigen::VectorXd moved_by(const Eigen::VectorXd& force) const;
   std::vector<Pair> pairs_at(const FreeFrame& frame, const Points& lower, const Points& upper,
                              const Eigen::VectorXd& moved) const;
 
