@@ -118,6 +118,10 @@ void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
 
+void end_with_the_mouth_half_open(const fs::path& folder) {
+  write_opening(folder, 0, 22);
+}
+
 void open_wide(const fs::path& folder) {
   write_opening(folder, 0, 81);
 }
@@ -264,6 +268,7 @@ const std::vector<NotedScene>& noted_scenes() {
        end_with_a_weight_that_jumps},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
+      {"recording.ends_in_expression", true, "", end_with_the_mouth_half_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",
        write_weights},
       {"recording.side_missing", true, "motion.file=\nmotion.arkit=\"lost.csv\"", lose_a_column},

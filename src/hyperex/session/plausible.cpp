@@ -9,6 +9,7 @@
 
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
@@ -86,6 +87,24 @@ bool are_exchanged(const SidesFit& fit) {
   return fit.as_is_m > kMirroredRms_m && fit.mirrored_m < kMirroredShare * fit.as_is_m;
 }
 
+/// `advice`: what to do, given the stretch that looks most like rest.
+template <typename Advice>
+std::optional<Note> start_warning_with(const motion::Motion& stabilised, const FaceAtRest& face,
+                                       const Advice& advice) {
+  const auto started =
+      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
+  if (!started) return std::nullopt;
+  return make_warning(
+      "recording.starts_in_expression",
+      fmt::format(
+          "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
+          "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
+          "displacements are taken from the first sample, so {}",
+          started->stretch.from_s, started->stretch.to_s, face.whose,
+          face::name_in_words(started->point), 1e3 * started->distance_m,
+          advice(started->stretch)));
+}
+
 }  // namespace
 
 FaceAtRest average_face() {
@@ -159,18 +178,33 @@ std::optional<Note> rescaled_note(double scale) {
 std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
                                   bool of_weights) {
   if (of_weights) return std::nullopt;
-  const auto started =
-      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
-  if (!started) return std::nullopt;
+  return start_warning_with(stabilised, face, [](const motion::RestStretch& rest) {
+    return fmt::format("say motion.rest_s = [{:.2f}, {:.2f}]", rest.from_s, rest.to_s);
+  });
+}
+
+std::optional<Note> end_warning(const motion::Motion& stabilised) {
+  const auto ended = motion::ended_in_expression(stabilised);
+  if (!ended) return std::nullopt;
   return make_warning(
-      "recording.starts_in_expression",
+      "recording.ends_in_expression",
       fmt::format(
-          "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
-          "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
-          "displacements are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
-          started->stretch.from_s, started->stretch.to_s, face.whose,
-          face::name_in_words(started->point), 1e3 * started->distance_m, started->stretch.from_s,
-          started->stretch.to_s));
+          "the recording ends in an expression: {} is farthest from its first place ({:.1f} "
+          "mm) {}, and is still on its way; the expression may not be complete",
+          face::name_in_words(ended->point), 1e3 * ended->distance_m,
+          ended->before_end_s > 0 ? fmt::format("{:.2f} s before the end", ended->before_end_s)
+                                  : "in the last sample"));
+}
+
+std::vector<Note> extent_warnings(const motion::Motion& stabilised) {
+  std::vector<Note> warnings;
+  motion::Motion named = stabilised;
+  for (std::string& name : named.names) name = face::full_name(name);
+  add(warnings, start_warning_with(named, average_face(), [](const motion::RestStretch&) {
+        return std::string("give a recording that begins at rest");
+      }));
+  add(warnings, end_warning(named));
+  return warnings;
 }
 
 std::string timing_sentence(const motion::Motion& m) {

@@ -55,6 +55,14 @@ std::optional<Note> rescaled_note(double scale);
 std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
                                   bool of_weights);
 
+/// `recording.ends_in_expression`: the recording seems to break off in the middle of an expression
+/// (motion::ended_in_expression).
+std::optional<Note> end_warning(const motion::Motion& stabilised);
+
+/// start_warning by an average face, and end_warning, of a recording that no scene belongs to: the
+/// first says to give a recording that begins at rest.
+std::vector<Note> extent_warnings(const motion::Motion& stabilised);
+
 /// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
 std::string timing_sentence(const motion::Motion& m);
 

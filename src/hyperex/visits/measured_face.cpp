@@ -280,6 +280,9 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   const fs::path name = motion::named(motion);
   face.file = name.filename().string();
   const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
+  if (face.head_known)
+    for (const Note& doubt : session::extent_warnings(steady.motion))
+      face.extent_doubts.push_back(doubt.text);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
   const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
@@ -322,6 +325,8 @@ MeasuredFace measure_recording(const session::CleanedRecording& recording, const
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())
     face.remarks.push_back(
         fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));
+  for (const std::string& doubt : face.extent_doubts)
+    face.remarks.push_back(fmt::format("{} ({}): {}", visit.label, face.file, doubt));
   for (const Note& warning : recording.warnings)
     face.remarks.push_back(with_file_name(warning.text, motion.source));
   return face;

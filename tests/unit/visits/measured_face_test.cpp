@@ -118,6 +118,20 @@ TEST(MeasuredFace, RemarksNameTheFileWithoutItsFolders) {
     EXPECT_EQ(remark.find("Jane"), std::string::npos) << remark;
 }
 
+TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
+  const auto part = [](std::size_t from, std::size_t to) {
+    const motion::Motion whole = recording_of({});
+    motion::Motion m = whole;
+    m.time_s = {whole.time_s.begin() + long(from), whole.time_s.begin() + long(to)};
+    m.positions = {whole.positions.begin() + long(from), whole.positions.begin() + long(to)};
+    return measure(m, visits_of(1), 0.0, nullptr).extent_doubts;
+  };
+  EXPECT_THAT(part(0, 90), testing::IsEmpty());
+  EXPECT_THAT(part(0, 45), testing::IsEmpty()) << "held at its peak";
+  EXPECT_THAT(part(0, 24), testing::ElementsAre(HasSubstr("ends in an expression")));
+  EXPECT_THAT(part(40, 90), testing::ElementsAre(HasSubstr("seems to start in an expression")));
+}
+
 TEST(MeasuredFace, AnotherSizeIsRemarked) {
   const MeasuredFace first = exact({});
   motion::Motion larger = recording_of({});
