@@ -108,6 +108,9 @@ TEST(EndedInExpression, IsNotSeenWhereItIsComplete) {
   EXPECT_FALSE(ended_in_expression(smile(rises_and_falls, 0.01, 50)));  // on its way back
   EXPECT_FALSE(ended_in_expression(ramp(1, 31)));                       // as those of a rig
   EXPECT_FALSE(ended_in_expression(ramp(0.5, 25)));                     // held for 0.3 s
+  // Complete once, and cut in a second one.
+  const auto twice = [](double t) { return (t < 1 ? 1 : 0.8) * rises_and_falls(2 * t); };
+  EXPECT_FALSE(ended_in_expression(smile(twice, 0.01, 44)));
 }
 
 TEST(EndedInExpression, IsNotToldOfTooLittle) {
