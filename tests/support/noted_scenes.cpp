@@ -187,10 +187,15 @@ void displace_a_marker(const fs::path& folder) {
   });
 }
 
+/// Each corner lies beyond the middle: 0.6 of the way to the other.
 void exchange_the_corners(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
-    std::swap(m.names[std::size_t(m.index_of("cheilion_L"))],
-              m.names[std::size_t(m.index_of("cheilion_R"))]);
+    const int left = m.index_of("cheilion_L"), right = m.index_of("cheilion_R");
+    for (Points& sample : m.positions) {
+      const Eigen::RowVector3d way = 0.6 * (sample.row(right) - sample.row(left));
+      sample.row(left) += way;
+      sample.row(right) -= way;
+    }
   });
 }
 

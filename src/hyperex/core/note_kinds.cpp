@@ -106,8 +106,8 @@ constexpr NoteKind kKinds[] = {
     "The points fit the face better with left and right exchanged, but not well enough to refuse "
     "the recording."),
   warning("sides.exchanged_pair", "motion.file",
-    "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
-    "refused."),
+    "Single pairs of points lie the other way round than on the face, by less than half of their "
+    "distance there. Where they do by more, or most pairs do, the recording is refused."),
   warning("anatomy.ct_fits_badly", "anatomy.ct",
     "The skin of the CT is more than 1.5 mm (median) from the scan after it was laid on it."),
   warning("anatomy.bone_outside", "anatomy.skull",

@@ -307,6 +307,7 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const FaceAtRest average = average_face();
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
+  if (whole) check_pairs(m, average);
   add(in.notes, sides_warning(m, average));
   if (whole) {
     add(in.notes, start_warning(m, average, of_weights(scene)));
