@@ -313,6 +313,7 @@ TEST_F(InputNotes, ComeAfterADefaultPointThatTheRecordingLacks) {
 }
 
 TEST_F(InputNotes, ListFiveOfManyPointsThatTheRecordingLacks) {
+  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
   open(0, 16, [](motion::Motion& m) {
     keep_mouth_and_headband(m);
     for (int k = 0; k < 7; ++k) m.names[std::size_t(k)] = "mole_" + std::to_string(k);
