@@ -56,8 +56,9 @@ void bind_estimate(py::module_& m) {
       .def_property_readonly(
           "interval", [](const Finding& self) { return pair_of(self.interval); },
           "95 %, by profile likelihood.")
-      .def_readonly("determined", &Finding::determined,
-                    "Whether the interval is narrow enough to be an answer.")
+      .def_readonly(
+          "determined", &Finding::determined,
+          "Whether the interval is narrow enough to be an answer. If not, it may still exclude 1.")
       .def_property_readonly(
           "largest_part", [](const Finding& self) { return self.parts.front().words; },
           "What makes the interval wide.")

@@ -290,6 +290,17 @@ motion::Motion read(const SymmetryOptions& options, const fs::path& file,
   return motion;
 }
 
+/// That a measured recording seems to start or to end in an expression. Weights know their rest,
+/// and a run has warned of its recording.
+std::vector<Note> extent_warnings(const SymmetryOptions& options, const fs::path& run_folder,
+                                  const motion::Motion& steady) {
+  std::vector<Note> warnings;
+  if (!run_folder.empty()) return warnings;
+  if (options.rig.empty()) return session::extent_warnings(steady);
+  add(warnings, session::end_warning(steady));
+  return warnings;
+}
+
 void run(const SymmetryOptions& options) {
   stated_jitter_mm(options);  // throws before the work begins
   check_rigid_points(options);
@@ -320,7 +331,10 @@ void run(const SymmetryOptions& options) {
   all.curve = curve_of(motion, options);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
   const motion::Motion& steady = stabilised.motion;
-  if (!steady.head_pose.empty()) add(warnings, session::check_steady(steady, readings));
+  if (!steady.head_pose.empty()) {
+    add(warnings, session::check_steady(steady, readings));
+    append(warnings, extent_warnings(options, run_folder, steady));
+  }
   add(warnings, session::coarse_warning(motion));
   append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);

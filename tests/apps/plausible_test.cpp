@@ -74,6 +74,19 @@ TEST_F(Plausible, AStartInAnExpressionIsMendedAsAdvised) {
   EXPECT_EQ(call("check scene.toml --set motion.rest_s=40").status, 2);
 }
 
+TEST_F(Plausible, SymmetrySaysWhereARecordingStartsOrEndsInAnExpression) {
+  const auto said = [&](std::size_t first, std::size_t count) {
+    write_motion(first, count);
+    const Outcome outcome = call("symmetry motion.csv");
+    EXPECT_EQ(outcome.status, 0) << outcome.err;
+    return outcome.err;
+  };
+  EXPECT_THAT(said(0, 81), Not(HasSubstr("in an expression")));
+  EXPECT_THAT(said(0, 22), HasSubstr("the recording ends in an expression"));
+  EXPECT_THAT(said(40, 41), AllOf(HasSubstr("seems to start in an expression"),
+                                  HasSubstr("so give a recording that begins at rest")));
+}
+
 TEST_F(Plausible, ExchangedSidesOfARecordingAreRefused) {
   write_motion(0, 16, [](motion::Motion& m) {
     for (auto& sample : m.positions) sample.col(0) *= -1;

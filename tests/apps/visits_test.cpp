@@ -180,6 +180,31 @@ TEST_F(Visits, WarnOfAnotherScaleAndRefuseExchangedSides) {
   EXPECT_THAT(exchanged.err, HasSubstr("after.csv: left and right are exchanged"));
 }
 
+TEST_F(Visits, SayAtWhichVisitARecordingEndsInTheExpression) {
+  EXPECT_THAT(call("visits v.toml").err, testing::Not(HasSubstr("ends in an expression")));
+  motion::Motion after = motion::read_motion(in("after.csv"));
+  after.time_s.resize(22);
+  after.positions.resize(22);
+  motion::write_motion_csv(in("after.csv"), after);
+  const Outcome outcome = call("visits v.toml --out v.html");
+  EXPECT_EQ(outcome.status, 0) << outcome.err;
+  const std::string words = "2026-06-01 (after.csv): the recording ends in an expression";
+  EXPECT_THAT(outcome.err, HasSubstr(words));
+  EXPECT_THAT(read_file(in("v.html")), HasSubstr(words));
+}
+
+TEST_F(Visits, RefuseCornersThatAreExchangedAtOneVisit) {
+  motion::Motion after = motion::read_motion(in("after.csv"));
+  std::swap(after.names[std::size_t(after.index_of("ibug68_48"))],
+            after.names[std::size_t(after.index_of("ibug68_54"))]);
+  motion::write_motion_csv(in("after.csv"), after);
+  const Outcome outcome = call("visits v.toml");
+  EXPECT_EQ(outcome.status, 2);
+  EXPECT_EQ(outcome.out, "");
+  EXPECT_THAT(outcome.err,
+              HasSubstr("after.csv: left and right are exchanged in ibug68_48 and ibug68_54"));
+}
+
 TEST_F(Visits, RefuseInOneLineAndLeaveNothing) {
   std::ofstream(in("mine.html")) << "<html>mine</html>";
   std::ofstream(in("text.csv")) << "no recording\n";

@@ -118,6 +118,10 @@ void start_with_the_mouth_open(const fs::path& folder) {
   write_opening(folder, 40, 41);
 }
 
+void end_with_the_mouth_half_open(const fs::path& folder) {
+  write_opening(folder, 0, 22);
+}
+
 void open_wide(const fs::path& folder) {
   write_opening(folder, 0, 81);
 }
@@ -183,10 +187,15 @@ void displace_a_marker(const fs::path& folder) {
   });
 }
 
+/// Each corner lies beyond the middle: 0.6 of the way to the other.
 void exchange_the_corners(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
-    std::swap(m.names[std::size_t(m.index_of("cheilion_L"))],
-              m.names[std::size_t(m.index_of("cheilion_R"))]);
+    const int left = m.index_of("cheilion_L"), right = m.index_of("cheilion_R");
+    for (Points& sample : m.positions) {
+      const Eigen::RowVector3d way = 0.6 * (sample.row(right) - sample.row(left));
+      sample.row(left) += way;
+      sample.row(right) -= way;
+    }
   });
 }
 
@@ -264,6 +273,7 @@ const std::vector<NotedScene>& noted_scenes() {
        end_with_a_weight_that_jumps},
       {"recording.nothing_moves", true, "", hold_still},
       {"recording.starts_in_expression", true, "", start_with_the_mouth_open},
+      {"recording.ends_in_expression", true, "", end_with_the_mouth_half_open},
       {"recording.column_misspelt", true, "motion.file=\nmotion.arkit=\"weights.csv\"",
        write_weights},
       {"recording.side_missing", true, "motion.file=\nmotion.arkit=\"lost.csv\"", lose_a_column},

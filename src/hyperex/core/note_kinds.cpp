@@ -72,6 +72,10 @@ constexpr NoteKind kKinds[] = {
     "No point moves 0.05 mm from its first place, head motion removed."),
   warning("recording.starts_in_expression", "motion.rest_s",
     "The face is nearer to rest later than at the start, and displacements count from the start."),
+  warning("recording.ends_in_expression", "motion.file",
+    "The farthest point is 2 mm or more from rest in the last 0.1 s, and went more than 0.3 of this "
+    "in the last 0.2 s: the expression may not be complete. In recordings of 0.6 s or more with "
+    "samples at most 0.1 s apart."),
   warning("recording.column_misspelt", "motion.arkit",
     "A column of a table of weights is no blend shape and is at most two letters from one; it is "
     "left out."),
@@ -102,8 +106,8 @@ constexpr NoteKind kKinds[] = {
     "The points fit the face better with left and right exchanged, but not well enough to refuse "
     "the recording."),
   warning("sides.exchanged_pair", "motion.file",
-    "Single pairs of points have left and right exchanged. Where most pairs do, the recording is "
-    "refused."),
+    "Single pairs of points lie the other way round than on the face, by less than half of their "
+    "distance there. Where they do by more, or most pairs do, the recording is refused."),
   warning("anatomy.ct_fits_badly", "anatomy.ct",
     "The skin of the CT is more than 1.5 mm (median) from the scan after it was laid on it."),
   warning("anatomy.bone_outside", "anatomy.skull",

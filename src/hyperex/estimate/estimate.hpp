@@ -44,7 +44,8 @@ struct Finding {
   Range interval;    ///< 95 %, by profile likelihood
   Range laplace;     ///< 95 %, from the curvature
   /// Whether the interval is narrow enough to be an answer: a ratio or Young's modulus known
-  /// to a factor of kWidestRatio from end to end, a gain to kWidestGain.
+  /// to a factor of kWidestRatio from end to end, a gain to kWidestGain. Where it is not, the
+  /// interval may still exclude 1, and so show on which side a ratio or a gain lies.
   bool determined = false;
   std::vector<ErrorPart> parts;  ///< largest first
   /// The standard expression whose recording is expected to narrow the interval most, and to what;

@@ -47,12 +47,24 @@ std::string meaning(const Finding& f) {
                  : "no difference is shown";
 }
 
+/// Whether the interval excludes 1, no difference. Young's modulus has nothing to differ from.
+bool shows_a_difference(const Finding& f) {
+  return f.kind != Finding::Kind::young && (f.interval.low > 1 || f.interval.high < 1);
+}
+
+std::string answer(const Finding& f, std::size_t recordings) {
+  const std::string range = range_words(f, f.interval);
+  if (f.determined)
+    return fmt::format("{}: {} (95 %: {}): {}.", f.name, value_words(f), range, meaning(f));
+  if (shows_a_difference(f))
+    return fmt::format("{}: {}, but how much cannot be told (95 %: {}).", f.name, meaning(f),
+                       range);
+  return fmt::format("{}: {} cannot tell (95 %: {}).", f.name,
+                     recordings == 1 ? "this recording" : "these recordings", range);
+}
+
 std::string sentence(const Finding& f, std::size_t recordings) {
-  const std::string who = recordings == 1 ? "this recording" : "these recordings";
-  std::string out = f.determined ? fmt::format("{}: {} (95 %: {}): {}.", f.name, value_words(f),
-                                               range_words(f, f.interval), meaning(f))
-                                 : fmt::format("{}: {} cannot tell (95 %: {}).", f.name, who,
-                                               range_words(f, f.interval));
+  std::string out = answer(f, recordings);
   out += fmt::format(" Largest part of the interval: {}.", f.parts.front().words);
   if (!f.further.empty())
     out += fmt::format(" A recording of \"{}\" beside {} would narrow it most, to about {}.",

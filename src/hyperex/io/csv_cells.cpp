@@ -8,6 +8,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/number.hpp"
+#include "hyperex/io/text_file.hpp"
 
 namespace hyperex::io {
 
@@ -90,6 +91,7 @@ void check_length(const std::filesystem::path& file, int line, std::size_t cells
 void walk_table(const std::filesystem::path& file, std::vector<std::string>& names,
                 const std::function<void(std::string_view line, int number, char separator)>& row) {
   const std::string text = read_file(file);
+  refuse_other_than_text(file, text);
   char separator = ',';
   Lines lines(text);
   std::string_view line;

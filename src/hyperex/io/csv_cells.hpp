@@ -26,7 +26,7 @@ std::vector<std::string> read_names(const std::filesystem::path& file, int line,
 
 /// Calls `row` for each line below the line of names, with its number and the separator. Comments
 /// and empty lines are skipped. `names` is filled before the first call. Throws InputError if there
-/// are no names.
+/// are no names, or the file is no text (refuse_other_than_text).
 void walk_table(const std::filesystem::path& file, std::vector<std::string>& names,
                 const std::function<void(std::string_view line, int number, char separator)>& row);
 

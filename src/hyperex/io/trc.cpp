@@ -12,6 +12,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/number.hpp"
+#include "hyperex/io/text_file.hpp"
 
 namespace hyperex::io {
 namespace {
@@ -169,6 +170,7 @@ void check(const TrcFile& recording) {
 
 TrcFile read_trc(const std::filesystem::path& file) {
   const std::string text = read_file(file);
+  refuse_other_than_text(file, text);
   return TrcReader(file, text).read();
 }
 

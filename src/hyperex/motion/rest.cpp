@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kAtRest_m = 1e-3;
 constexpr double kStretch_s = 0.3, kStart_s = 0.1, kNearer = 0.65;
+constexpr double kEnd_s = 0.1, kStill_s = 0.2, kOnItsWay = 0.3, kLeastEnd_m = 2e-3;
 constexpr std::size_t kFewest = 5;
 constexpr double kLeastSpread = 0.05;
 
@@ -115,6 +116,20 @@ Motion from_time(const Motion& motion, double start_s) {
   return rest_of;
 }
 
+/// Mean distance of a point from its first place, over the samples of a stretch that measure it;
+/// NaN where none does.
+double mean_distance(const Motion& motion, Eigen::Index point, const RestStretch& stretch) {
+  const auto [first, last] = samples_of(motion, stretch);
+  double sum = 0;
+  int count = 0;
+  for (std::size_t k = first; k < last; ++k)
+    if (const auto place = motion.positions[k].row(point); place.allFinite()) {
+      sum += (place - motion.positions.front().row(point)).norm();
+      ++count;
+    }
+  return sum / count;
+}
+
 Points laid_on(const Points& shape, const Points& onto) {
   return fit_similarity(shape, onto).apply(shape);
 }
@@ -182,6 +197,32 @@ std::optional<StartedInExpression> started_in_expression(const Motion& motion,
   const double share = (start - common.rest).cwiseProduct(moved).sum() / moved.squaredNorm();
   if (share <= kNearer) return std::nullopt;
   return StartedInExpression{nearest, common.names[std::size_t(point)], farthest};
+}
+
+std::optional<EndedInExpression> ended_in_expression(const Motion& motion) {
+  const auto& t = motion.time_s;
+  if (t.size() < 2 || t.back() - t.front() < 2 * kStretch_s - 1e-9 ||
+      usual_step_s(motion) > Motion::kSmoothUpTo_s)
+    return std::nullopt;
+  Eigen::Index point = 0;
+  std::size_t sample = 0;
+  double farthest = 0;
+  for (std::size_t k = 1; k < t.size(); ++k)
+    for (Eigen::Index p = 0; p < motion.positions[k].rows(); ++p)
+      if (const double d = (motion.positions[k].row(p) - motion.positions.front().row(p)).norm();
+          d > farthest) {  // never of NaN
+        farthest = d;
+        point = p;
+        sample = k;
+      }
+  const double before_end_s = t.back() - t[sample];
+  if (farthest < kLeastEnd_m || before_end_s > kEnd_s + 1e-9) return std::nullopt;
+  const double lasts_s = t.back() - t.front();
+  const double end = mean_distance(motion, point, {lasts_s - kEnd_s, lasts_s});
+  const double before =
+      mean_distance(motion, point, {lasts_s - kStill_s - kEnd_s, lasts_s - kStill_s});
+  if (!(end - before > kOnItsWay * farthest)) return std::nullopt;
+  return EndedInExpression{motion.names[std::size_t(point)], farthest, before_end_s};
 }
 
 }  // namespace hyperex::motion

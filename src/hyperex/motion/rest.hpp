@@ -54,4 +54,22 @@ std::optional<StartedInExpression> started_in_expression(const Motion& motion,
                                                          const io::Landmarks& at_rest,
                                                          double least_moved_m = 3e-3);
 
+/// The end of a motion that breaks off in the middle of an expression.
+struct EndedInExpression {
+  std::string point;        ///< the point that goes farthest from its place in the first sample
+  double distance_m = 0;    ///< how far it goes
+  double before_end_s = 0;  ///< when, before the last sample: 0 to 0.1 s
+};
+
+/// Whether a motion ends in the middle of an expression: its farthest point is 2 mm or more from
+/// its place in the first sample, this is so in the last 0.1 s, and the point is still on its way.
+/// It is on its way if its mean distance over the last 0.1 s exceeds that over the 0.1 s which end
+/// 0.2 s earlier by more than 0.3 of the farthest distance. An expression that is held for 0.3 s at
+/// its peak is complete. Measured: 0.10 in a real smile that ends at its peak, 0.20 in ramps of a
+/// rig that go evenly to their peak within a second, 0.5 in a smile that breaks off at a third of
+/// its way. A slow or nearly finished expression is not told from a complete one. `motion`: without
+/// head pose, the first sample at rest. Nothing for a motion shorter than 0.6 s or with samples
+/// more than 0.1 s apart (median).
+std::optional<EndedInExpression> ended_in_expression(const Motion& motion);
+
 }  // namespace hyperex::motion

@@ -90,6 +90,7 @@ std::vector<Note> check_alone(const motion::Motion& m) {
   std::vector<Note> warnings;
   const motion::Motion sample = fullest_sample(m);
   check_sides(sample, average_face());
+  check_pairs(sample, average_face());
   add(warnings, sides_warning(sample, average_face()));
   add(warnings, exchanged_warning(sample, average_face()));
   add(warnings, size_warning_of(sample));

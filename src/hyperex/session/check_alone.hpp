@@ -11,9 +11,10 @@ namespace hyperex::session {
 
 // Checks of a recording by itself, by an average face, where no scan shows the person's own.
 
-/// Throws InputError where left and right are exchanged (check_sides). Returns sides_warning,
-/// exchanged_warning, size_warning and timing_warning, in this order. `m` may contain the head's
-/// motion and gaps: the first of its samples with the most measured points is judged.
+/// Throws InputError where left and right are exchanged (check_sides, check_pairs). Returns
+/// sides_warning, exchanged_warning, size_warning and timing_warning, in this order. `m` may
+/// contain the head's motion and gaps: the first of its samples with the most measured points is
+/// judged.
 std::vector<Note> check_alone(const motion::Motion& m);
 
 /// `recording.size_implausible`: the points with known names lie less than 0.5 or more than 1.8

@@ -58,28 +58,38 @@ std::vector<InputProblem> names_of_no_point(const scene::Scene& scene, const mot
   return problems;
 }
 
-/// One problem for all default points that the recording lacks. The user wrote no list of points,
-/// so none is quoted, and the points that are there are listed.
-std::vector<InputProblem> missing_default_points(const scene::Scene& scene, const motion::Motion& m,
+/// One problem for all default points that the recording lacks. It names the recording and no key,
+/// as the user wrote no list of points. The points that are there are listed where none of the
+/// default ones is.
+std::vector<InputProblem> missing_default_points(const motion::Motion& m,
                                                  const std::vector<std::string>& driven) {
-  constexpr std::size_t most_named = 8;
+  constexpr std::size_t most_named = 5;
   std::vector<std::string> missing, there;
-  for (const std::string& name : driven)
-    if (m.index_of(name) < 0) missing.push_back(face::name_in_words(name));
-  if (missing.empty()) return {};
+  std::size_t count = 0;
+  for (const std::string& name : driven) {
+    if (m.index_of(name) >= 0) continue;
+    if (++count <= most_named) missing.push_back(face::name_in_words(name));
+  }
+  if (count == 0) return {};
+  add_rest(missing, count);
   for (const std::string& name : m.names)
-    if (there.size() < most_named) there.push_back(face::name_in_words(name));
+    if (there.size() < most_named) there.push_back(name);
   add_rest(there, m.names.size());
-  return {{scene.file, 0, "drive.points", "",
-           fmt::format("to be given, as {} lacks {}, which would drive by default; it has {}",
-                       motion::named(m), fmt::join(missing, ", "), fmt::join(there, ", "))}};
+  return {{motion::named(m), 0, "", "",
+           fmt::format("{} {}, which {} missing{}: record {}, or choose other points with "
+                       "drive.points",
+                       count == 1 ? "the point" : "the points", fmt::join(missing, ", "),
+                       count == 1 ? "is" : "are",
+                       count == driven.size() ? fmt::format(" (it has {})", fmt::join(there, ", "))
+                                              : std::string(),
+                       count == 1 ? "it" : "them")}};
 }
 
 /// Problems for names that are not points of the recording, of which `driven` drive.
 std::vector<InputProblem> problems_of_points(const scene::Scene& scene, const motion::Motion& m,
                                              const std::vector<std::string>& driven) {
   std::vector<InputProblem> all = drives_by_default(scene)
-                                      ? missing_default_points(scene, m, driven)
+                                      ? missing_default_points(m, driven)
                                       : names_of_no_point(scene, m, driven, "drive.points");
   for (const auto& [key, names] : {std::pair{"support.jaw_points", &scene.support.jaw_points},
                                    {"region.measured_points", &scene.region.measured_points}})
@@ -136,7 +146,7 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
     problem.expected += did_you_mean_region(problem.key, problem.value);
     if (problem.key.starts_with("tissue."))
       problem.expected += did_you_mean(unknown_landmark(problem), landmarks_of(in));
-    problem.key = owner + problem.key;
+    if (!problem.key.empty()) problem.key = owner + problem.key;
   }
   if (!all.empty()) throw InputError(all);
 }
@@ -144,7 +154,8 @@ void check_names(const scene::Scene& scene, const Inputs& in, const std::string&
 void check_point_names(const scene::Scene& scene, const motion::Motion& m,
                        const std::string& owner) {
   std::vector<InputProblem> all = problems_of_points(scene, m, driven_points(scene, m));
-  for (InputProblem& problem : all) problem.key = owner + problem.key;
+  for (InputProblem& problem : all)
+    if (!problem.key.empty()) problem.key = owner + problem.key;
   if (!all.empty()) throw InputError(all);
 }
 

@@ -143,6 +143,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
                      const motion::Motion& steady, Inputs& in) {
   const FaceAtRest at_rest{in.landmarks, "the scan"};
   check_sides(steady, at_rest);
+  check_pairs(steady, at_rest);
   add(in.notes, sides_warning(steady, at_rest));
   in.motion = simulate::align(steady, in.landmarks, scene.alignment.method);
   if (of_weights(scene)) {

@@ -9,6 +9,7 @@
 
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/face/canonical_face.hpp"
+#include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
@@ -24,6 +25,8 @@ constexpr double kMirroredRms_m = 6e-3, kMirroredShare = 0.5;
 // names never fit better mirrored. Exchanged ones fit 0.06 to 0.6 times as far mirrored, 5.4 mm or
 // more as they are; above 0.5 only without a corner of the mouth.
 constexpr double kDoubtfulRms_m = 5e-3, kDoubtfulShare = 0.7;
+// Names that are exchanged give -1, sound ones about 1; between lie points that are set wrongly.
+constexpr double kSurelyExchanged = 0.5;
 constexpr double kMisfit_mm = 10;
 // By the 68 points: 3.1 to 3.9 mm between the three people of one rig, 5.3 to 8.8 mm in ten of
 // eleven other pairs of people; of one person 0 (exact points) to 3.5 mm (a depth camera).
@@ -84,6 +87,68 @@ std::optional<SidesFit> fit_of_sides(const motion::Motion& stabilised, const Fac
 
 bool are_exchanged(const SidesFit& fit) {
   return fit.as_is_m > kMirroredRms_m && fit.mirrored_m < kMirroredShare * fit.as_is_m;
+}
+
+/// "ibug68_48 and ibug68_54 (corner of the mouth)".
+std::string pair_in_words(const std::string& name, const std::string& other) {
+  const std::string words = face::name_in_words(name);  // "ibug68_48 (corner of the mouth, right)"
+  const auto from = words.find('('), to = words.rfind(',');
+  const bool known = from != std::string::npos && to != std::string::npos && from < to;
+  return name + " and " + other + (known ? " " + words.substr(from, to - from) + ")" : "");
+}
+
+/// Pairs of points whose vector is opposite to that on the face.
+struct ExchangedPairs {
+  std::vector<std::string> surely;   ///< by more than half of its length there
+  std::vector<std::string> perhaps;  ///< by less
+};
+
+/// None where at least half of the pairs are exchanged.
+ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const auto [names, recorded, scanned] = simulate::common_points(stabilised, face.landmarks);
+  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return {};
+  const Similarity recording_from_face = fit_similarity(scanned, recorded);
+  const auto of_recording = [&](const std::string& name) -> Vec3 {
+    return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
+  };
+  ExchangedPairs pairs;
+  std::size_t right = 0;
+  for (const std::string& name : stabilised.names) {
+    const std::string other = face::mirrored_landmark(name);
+    const auto here = face.landmarks.find(name), there = face.landmarks.find(other);
+    if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
+        there == face.landmarks.end())
+      continue;
+    const Vec3 expected =
+        recording_from_face.scale * (recording_from_face.rotation * (there->second - here->second));
+    const double along = (of_recording(other) - of_recording(name)).dot(expected);
+    if (along < -kSurelyExchanged * expected.squaredNorm())
+      pairs.surely.push_back(pair_in_words(name, other));
+    else if (along < 0)
+      pairs.perhaps.push_back(pair_in_words(name, other));
+    else
+      ++right;
+  }
+  if (pairs.surely.size() + pairs.perhaps.size() >= right) return {};
+  return pairs;
+}
+
+/// `advice`: what to do, given the stretch that looks most like rest.
+template <typename Advice>
+std::optional<Note> start_warning_with(const motion::Motion& stabilised, const FaceAtRest& face,
+                                       const Advice& advice) {
+  const auto started =
+      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
+  if (!started) return std::nullopt;
+  return make_warning(
+      "recording.starts_in_expression",
+      fmt::format(
+          "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
+          "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
+          "displacements are taken from the first sample, so {}",
+          started->stretch.from_s, started->stretch.to_s, face.whose,
+          face::name_in_words(started->point), 1e3 * started->distance_m,
+          advice(started->stretch)));
 }
 
 }  // namespace
@@ -159,18 +224,33 @@ std::optional<Note> rescaled_note(double scale) {
 std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
                                   bool of_weights) {
   if (of_weights) return std::nullopt;
-  const auto started =
-      motion::started_in_expression(stabilised, face.landmarks, face.least_moved_m);
-  if (!started) return std::nullopt;
+  return start_warning_with(stabilised, face, [](const motion::RestStretch& rest) {
+    return fmt::format("say motion.rest_s = [{:.2f}, {:.2f}]", rest.from_s, rest.to_s);
+  });
+}
+
+std::optional<Note> end_warning(const motion::Motion& stabilised) {
+  const auto ended = motion::ended_in_expression(stabilised);
+  if (!ended) return std::nullopt;
   return make_warning(
-      "recording.starts_in_expression",
+      "recording.ends_in_expression",
       fmt::format(
-          "the recording seems to start in an expression: from {:.2f} s to {:.2f} s the face is "
-          "nearer to {}, which is at rest, than at the start ({} differs by {:.1f} mm); "
-          "displacements are taken from the first sample, so say motion.rest_s = [{:.2f}, {:.2f}]",
-          started->stretch.from_s, started->stretch.to_s, face.whose,
-          face::name_in_words(started->point), 1e3 * started->distance_m, started->stretch.from_s,
-          started->stretch.to_s));
+          "the recording ends in an expression: {} is farthest from its first place ({:.1f} "
+          "mm) {}, and is still on its way; the expression may not be complete",
+          face::name_in_words(ended->point), 1e3 * ended->distance_m,
+          ended->before_end_s > 0 ? fmt::format("{:.2f} s before the end", ended->before_end_s)
+                                  : "in the last sample"));
+}
+
+std::vector<Note> extent_warnings(const motion::Motion& stabilised) {
+  std::vector<Note> warnings;
+  motion::Motion named = stabilised;
+  for (std::string& name : named.names) name = face::full_name(name);
+  add(warnings, start_warning_with(named, average_face(), [](const motion::RestStretch&) {
+        return std::string("give a recording that begins at rest");
+      }));
+  add(warnings, end_warning(named));
+  return warnings;
 }
 
 std::string timing_sentence(const motion::Motion& m) {
@@ -228,33 +308,25 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eye
           1e3 * most_m, 1e3 * least_m));
 }
 
+void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
+  const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
+  if (pairs.surely.empty()) return;
+  motion::refuse(
+      stabilised,
+      fmt::format("left and right are exchanged in {}: they lie the other way round than "
+                  "on {}, while the other points do not; exchange their names (L and R "
+                  "are the subject's own sides)",
+                  fmt::join(pairs.surely, "; "), face.whose));
+}
+
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
-  const auto [names, recorded, scanned] = simulate::common_points(stabilised, face.landmarks);
-  if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return std::nullopt;
-  const Similarity recording_from_face = fit_similarity(scanned, recorded);
-  const auto of_recording = [&](const std::string& name) -> Vec3 {
-    return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
-  };
-  std::vector<std::string> wrong;
-  std::size_t right = 0;
-  for (const std::string& name : stabilised.names) {
-    const std::string other = face::mirrored_landmark(name);
-    const auto here = face.landmarks.find(name), there = face.landmarks.find(other);
-    if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
-        there == face.landmarks.end())
-      continue;
-    const Vec3 expected = recording_from_face.rotation * (there->second - here->second);
-    if ((of_recording(other) - of_recording(name)).dot(expected) < 0)
-      wrong.push_back(name + " and " + other);
-    else
-      ++right;
-  }
-  if (wrong.empty() || wrong.size() >= right) return std::nullopt;
+  const std::vector<std::string> pairs = exchanged_pairs(stabilised, face).perhaps;
+  if (pairs.empty()) return std::nullopt;
   return make_warning(
       "sides.exchanged_pair",
       fmt::format("left and right seem to be exchanged in {}: they lie the other way round than on "
                   "{}, while the other points do not; L and R are the subject's own sides",
-                  fmt::join(wrong, "; "), face.whose));
+                  fmt::join(pairs, "; "), face.whose));
 }
 
 void check_length(const scene::Scene& scene, const motion::Motion& m) {

@@ -55,6 +55,14 @@ std::optional<Note> rescaled_note(double scale);
 std::optional<Note> start_warning(const motion::Motion& stabilised, const FaceAtRest& face,
                                   bool of_weights);
 
+/// `recording.ends_in_expression`: the recording seems to break off in the middle of an expression
+/// (motion::ended_in_expression).
+std::optional<Note> end_warning(const motion::Motion& stabilised);
+
+/// start_warning by an average face, and end_warning, of a recording that no scene belongs to: the
+/// first says to give a recording that begins at rest.
+std::vector<Note> extent_warnings(const motion::Motion& stabilised);
+
 /// "the recording lasts 2.7 s: 81 samples, 33.3 ms apart (median)".
 std::string timing_sentence(const motion::Motion& m);
 
@@ -69,10 +77,14 @@ std::optional<Note> coarse_warning(const motion::Motion& m);
 /// `eyes_turn`: the recording has the gaze.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
 
-/// `sides.exchanged_pair`: names the pairs of points (face::mirrored_landmark) that are exchanged
-/// in the first sample. A pair is exchanged where the vector between its points is opposite to the
-/// same vector on the face, after a rotation fitted to the common points. Returns nothing where no
-/// pair is exchanged, or where at least half of the pairs are (check_sides reports that).
+/// Throws InputError where single pairs of points (face::mirrored_landmark) have their names
+/// exchanged in the first sample. The vector between the points of such a pair is opposite to the
+/// same vector on the face, after a similarity fitted to the common points, by more than half of
+/// its length. Nothing where at least half of the pairs are opposite (check_sides reports that).
+void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
+
+/// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
+/// that are set wrongly. check_pairs comes before it.
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before

@@ -197,6 +197,15 @@ std::optional<Note> unused_points_note(const scene::Scene& scene,
                                                    "; name them in motion.rigid_points");
 }
 
+/// A warning of motion.file, under the key that names the recording.
+std::optional<Note> about_its_file(const scene::Scene& scene, std::optional<Note> doubt) {
+  for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
+                                  {"motion.openface", &scene.motion.openface},
+                                  {"motion.recording", &scene.motion.recording}})
+    if (doubt && !file->empty()) doubt->key = key;
+  return doubt;
+}
+
 /// A quick reading of a camera's recording has its first face alone.
 bool is_read_whole(const scene::Scene& scene, Extent extent) {
   return scene.motion.recording.empty() || extent == Extent::full;
@@ -235,13 +244,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    for (std::optional<Note> doubt : {timing_warning(m), coarse_warning(m)}) {
-      for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
-                                      {"motion.openface", &scene.motion.openface},
-                                      {"motion.recording", &scene.motion.recording}})
-        if (doubt && !file->empty()) doubt->key = key;
-      add(in.notes, doubt);
-    }
+    for (const std::optional<Note>& doubt : {timing_warning(m), coarse_warning(m)})
+      add(in.notes, about_its_file(scene, doubt));
   }
   const Readings readings =
       of_weights(scene) && !scene.given.motion ? Readings::of_weights : Readings::measured;
@@ -275,6 +279,7 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
         metrics::pose_variances(steady.motion, steady.poses, scene.output.lowpass_hz);
     settle_rest(scene, steady.motion, in);
     add(in.notes, stillness_warning(steady.motion, in.gaze.has_value()));
+    add(in.notes, about_its_file(scene, end_warning(steady.motion)));
   }
   return steady;
 }
@@ -302,6 +307,7 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   const FaceAtRest average = average_face();
   const bool whole = scene.motion.recording.empty();  // of a camera's only the first face was read
   check_sides(m, average);
+  if (whole) check_pairs(m, average);
   add(in.notes, sides_warning(m, average));
   if (whole) {
     add(in.notes, start_warning(m, average, of_weights(scene)));

@@ -254,10 +254,32 @@ bool have_one_scale(const MeasuredFace& first, MeasuredFace& face) {
   face.other_scale = scale.ratio;
   face.remarks.push_back(fmt::format(
       "{}: the face at rest is {:.3g} times as large as in {}, by {} points that both measure "
-      "(expected: 1, to within {:.2g} %): lengths are not comparable, and so changes are not "
-      "judged; check the units of both",
+      "(expected: 1, to within {:.2g} %): it may be another person or another scale, and so "
+      "changes are not judged; check the units of both",
       face.file, scale.ratio, first.file, scale.common, 100 * scale.bound));
   return false;
+}
+
+/// The shape of the face at rest is that of another person. By the 68 points of iBUG two people
+/// are 3.1 to 8.8 mm rms apart, recordings of one person at most 3.5 mm (session::misfit_warning).
+void note_shape(const MeasuredFace& first, MeasuredFace& face) {
+  constexpr double kOnePerson_m = 5e-3;
+  constexpr std::size_t kFewest = 20;
+  std::vector<std::string> common;
+  for (const auto& [name, place] : first.rest) {
+    const std::string other = face::place_name(name);  // a place that has two names counts once
+    if (face.rest.contains(name) &&
+        (other == name || !first.rest.contains(other) || !face.rest.contains(other)))
+      common.push_back(name);
+  }
+  const Points there = places_of(first.rest, common), here = places_of(face.rest, common);
+  if (common.size() < kFewest || spread_off_line(there) < 0.05) return;
+  const double rms_m = rms_distance(fit_similarity(here, there).apply(here), there);
+  if (rms_m <= kOnePerson_m) return;
+  face.remarks.push_back(
+      fmt::format("{}: the points at rest are {:.1f} mm rms from those of {} after a fit of place "
+                  "and size (expected of one person: at most {:g} mm): it may be another person",
+                  face.file, 1e3 * rms_m, first.file, 1e3 * kOnePerson_m));
 }
 
 void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFace& face) {
@@ -267,7 +289,7 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
     return;
   face.remarks.push_back(fmt::format(
       "{}: the outer corners of the eyes are {:.1f} mm apart and {:.1f} mm at the first "
-      "visit: lengths may not be comparable",
+      "visit: it may be another person or another scale, and lengths may not be comparable",
       recording.filename().string(), 1e3 * face.eye_distance_m, 1e3 * first->eye_distance_m));
 }
 
@@ -280,6 +302,9 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   const fs::path name = motion::named(motion);
   face.file = name.filename().string();
   const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
+  if (face.head_known)
+    for (const Note& doubt : session::extent_warnings(steady.motion))
+      face.extent_doubts.push_back(doubt.text);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
   const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
@@ -303,6 +328,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   settle_axes(first, head_points(visits, still_points), name, face);
   settle_first_way(first, face);
   note_size(first, name, face);
+  if (first) note_shape(*first, face);
   return face;
 }
 
@@ -322,6 +348,8 @@ MeasuredFace measure_recording(const session::CleanedRecording& recording, const
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())
     face.remarks.push_back(
         fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));
+  for (const std::string& doubt : face.extent_doubts)
+    face.remarks.push_back(fmt::format("{} ({}): {}", visit.label, face.file, doubt));
   for (const Note& warning : recording.warnings)
     face.remarks.push_back(with_file_name(warning.text, motion.source));
   return face;

@@ -40,6 +40,9 @@ struct MeasuredFace {
   /// How many times as large the face at rest is as in the first recording, where that is another
   /// scale (scale_between.hpp): then lengths are not comparable. Nothing: one scale.
   std::optional<double> other_scale;
+  /// That the recording seems to start or to end in an expression, sentences
+  /// (session::extent_warnings).
+  std::vector<std::string> extent_doubts;
   std::vector<std::string> remarks;  ///< what the reader must know of this recording, sentences
 };
 
@@ -61,7 +64,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
 session::CleanedRecording read_recording(const std::filesystem::path& recording,
                                          const VisitEntry& visit, const VisitsFile& visits);
 
-/// measure() of a recording, with what was found in its readings among the remarks.
+/// measure() of a recording, with what was found in its readings among the remarks, and its
+/// extent_doubts with the visit that they concern.
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
                                const std::vector<std::string>& still_points);

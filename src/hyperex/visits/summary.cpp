@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hyperex/visits/norms.hpp"
 #include "hyperex/visits/visit_dates.hpp"
@@ -78,22 +79,101 @@ std::string why_not_compared(const Comparison& comparison) {
   return "as their faces differ in size";
 }
 
+const MeasureOverVisits* measured(const Comparison& comparison, const std::string& key,
+                                  const std::string& side) {
+  for (const MeasureOverVisits& one : comparison.measures)
+    if (one.measure.key == key && one.measure.side == side) return &one;
+  return nullptr;
+}
+
+bool is_beyond(const MeasureOverVisits* one) {
+  return one && one->values.front() && one->values.back() && one->changes.back() &&
+         one->changes.back()->beyond == Beyond::yes;
+}
+
+/// An angle from 170 to -170 degrees turns by 20, not by 340.
+bool has_turned(const MeasureOverVisits* angle) {
+  if (!is_beyond(angle)) return false;
+  const Change& change = *angle->changes.back();
+  const double way = std::abs(change.value);
+  return way <= 180 || (change.all && 360 - way > (change.all->high - change.all->low) / 2);
+}
+
+/// ", but its direction has changed (upward 3.9 to -3.9 mm)", of a corner of the mouth: where a
+/// part of its way is reversed or its angle turned, beyond the interval of that change. Else empty.
+std::string change_of_direction(const MeasureOverVisits& excursion, const Comparison& comparison) {
+  const Change& size = *excursion.changes.back();
+  for (const auto* value : {&excursion.values.front(), &excursion.values.back()})
+    if ((*value)->value < 1e3 * kLeastMovement_m) return "";
+  const auto from_to = [](const MeasureOverVisits& one, int digits) {
+    return fmt::format("{} to {} {}", figure(one.values.front()->value, digits),
+                       figure(one.values.back()->value, digits), one.measure.unit);
+  };
+  std::string parts;
+  for (const auto& [key, word] : {std::pair{"corner_up", "upward"},
+                                  {"corner_outward", "outward"},
+                                  {"corner_forward", "forward"}}) {
+    const MeasureOverVisits* part = measured(comparison, key, excursion.measure.side);
+    if (is_beyond(part) && part->values.front()->value * part->values.back()->value < 0)
+      parts += fmt::format("{}{} {}", parts.empty() ? "" : ", ", word, from_to(*part, 1));
+  }
+  const MeasureOverVisits* angle = measured(comparison, "smile_angle", excursion.measure.side);
+  if (parts.empty() && has_turned(angle)) parts = "angle " + from_to(*angle, 0);
+  if (parts.empty()) return "";
+  return fmt::format(", {} its direction has changed ({})",
+                     size.beyond == Beyond::yes ? "and" : "but", parts);
+}
+
+/// Whether some recording of the visit has the points that the movement of this side is judged by.
+bool is_recorded(const std::vector<MeasuredFace>& visit, Expression::Movement movement,
+                 const std::string& side) {
+  using enum Expression::Movement;
+  using enum FacePoint;
+  const auto on_side = [&](FacePoint right) {
+    return of_side(right, side == "L" ? Side::left : Side::right);
+  };
+  std::vector<FacePoint> points = {on_side(corner_R)};
+  if (movement == brows) points = {on_side(brow_R)};
+  if (movement == lids) points = {on_side(upper_lid_R), on_side(lower_lid_R)};
+  if (movement == lips) points = {inner_upper_lip, inner_lower_lip};
+  return std::ranges::any_of(visit, [&](const MeasuredFace& face) {
+    return std::ranges::all_of(
+        points, [&](FacePoint point) { return at(face.state.rest, point).allFinite(); });
+  });
+}
+
 std::string sentence(const MeasureOverVisits& one, const Headline& words,
                      const Comparison& comparison) {
   const std::string who = with_side(one.measure.side, words.part);
-  const auto& first = one.values.front();
-  const auto& last = one.values.back();
-  const auto at = [&](const VisitValue& value, const VisitEntry& visit) {
-    return fmt::format("{} {}{}", figure(value.value), one.measure.unit, at_visit(visit.label));
+  const auto at = [&](std::size_t visit) {
+    const std::string when = at_visit(comparison.file.visits[visit].label);
+    if (const auto& value = one.values[visit])
+      return fmt::format("{} {}{}", figure(value->value), one.measure.unit, when);
+    return (is_recorded(comparison.faces[visit], comparison.file.expression.movement,
+                        one.measure.side)
+                ? "not measured"
+                : "not recorded") +
+           when;
   };
-  const std::vector<VisitEntry>& visits = comparison.file.visits;
-  if (one.values.size() == 1) return fmt::format("{}: {}.", who, at(*first, visits.front()));
-  if (!first || !last)
-    return fmt::format("{}: not measured at both the first and the last visit.", who);
-  const auto& change = one.changes.back();
-  return fmt::format("{}: {}, {}: {}.", who, at(*first, visits.front()), at(*last, visits.back()),
-                     change ? verdict(*change, words, one.measure.unit)
-                            : "not compared, " + why_not_compared(comparison));
+  const std::size_t last = one.values.size() - 1;
+  if (last == 0) return fmt::format("{}: {}.", who, at(0));
+  std::string judged = "not compared";
+  if (const auto& change = one.changes.back()) {
+    judged = verdict(*change, words, one.measure.unit);
+    if (one.measure.key == "corner_excursion") judged += change_of_direction(one, comparison);
+  } else if (one.values.front() && one.values.back()) {
+    judged += ", " + why_not_compared(comparison);
+  }
+  return fmt::format("{}: {}, {}: {}.", who, at(0), at(last), judged);
+}
+
+/// Of a side that no visit records; empty where one does.
+std::string not_recorded(const Measure& measure, const Headline& words,
+                         const Comparison& comparison) {
+  for (const auto& visit : comparison.faces)
+    if (is_recorded(visit, comparison.file.expression.movement, measure.side)) return "";
+  return with_side(measure.side, words.part) +
+         (comparison.faces.size() > 1 ? ": not recorded at any visit." : ": not recorded.");
 }
 
 }  // namespace
@@ -101,8 +181,13 @@ std::string sentence(const MeasureOverVisits& one, const Headline& words,
 std::vector<std::string> summary(const Comparison& comparison) {
   const Headline words = headline_of(comparison.file.expression.movement);
   std::vector<std::string> out;
-  for (const MeasureOverVisits& one : comparison.measures)
-    if (one.measure.key == words.key) out.push_back(sentence(one, words, comparison));
+  for (const Measure& measure : measures()) {
+    if (measure.key != words.key) continue;
+    if (const MeasureOverVisits* one = measured(comparison, measure.key, measure.side))
+      out.push_back(sentence(*one, words, comparison));
+    else if (const std::string none = not_recorded(measure, words, comparison); !none.empty())
+      out.push_back(none);
+  }
   if (const Norm* norm = norm_of(comparison.file.expression); norm && !out.empty())
     out.push_back(fmt::format(
         "Healthy adults move the {} by {:.1f} mm, SD {:.1f}, as far as they can ({} adults: {}).",

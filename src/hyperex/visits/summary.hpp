@@ -11,7 +11,10 @@ namespace hyperex::visits {
 /// the expression is judged by. "Right corner of the mouth: 8.0 mm on 2026-06-01, 12.1 mm on
 /// 2026-03-01; 4.1 mm less (95 %: 2.3 to 5.9), beyond what measurement and repetition make." Where
 /// the interval holds no change, both of its bounds have a word: "(95 %: 1.8 less to 1.6 more)".
-/// With one visit, its values alone. Visits whose faces have different scales are not compared. A
+/// With one visit, its values alone. A corner of the mouth that moves 2 mm or more at both visits
+/// ends with ", but its direction has changed (upward 3.9 to -3.9 mm)" where a part of its way is
+/// reversed, or its angle turned, beyond the interval. A side whose points a visit lacks is "not
+/// recorded". Visits whose faces have different scales are not compared. A
 /// last sentence has the norm of healthy adults, if there is one.
 std::vector<std::string> summary(const Comparison& comparison);
 

@@ -30,6 +30,24 @@ TEST_F(Csv, RoundTripIsExact) {
   EXPECT_EQ(read_csv(path("u.csv")).values(3, 1), 9);
 }
 
+TEST_F(Csv, FilesThatAreNoTextAreRefusedByWhatTheyAre) {
+  const auto refused = [&](const std::string& bytes, const std::string& words) {
+    const auto file = write("t.csv", bytes);
+    expect_refused(file, words, [&] { read_csv(file); });
+  };
+  refused("%PDF-1.4\n%\xE2\xE3\n1 0 obj\n", "t.csv: is a PDF, not a table of text");
+  refused("PK\x03\x04....",
+          "is an archive (ZIP), as spreadsheets are (.xlsx, .ods), not a table of "
+          "text: export the table as CSV");
+  refused("\xD0\xCF\x11\xE0..", "office program (.xls, .doc)");
+  refused("\x89PNG\r\n\x1A\n", "is a picture (PNG)");
+  refused("\xFF\xD8\xFF\xE0..", "is a picture (JPEG)");
+  refused("\x1F\x8B\x08..", "is a compressed file (gzip), not a table of text: unpack it");
+  refused(std::string("\xFF\xFEt\0,\0x\0", 8), "is text in UTF-16");
+  refused(std::string("time_s,x\n1,2\0\n", 15), "is a binary file, not a table of text");
+  EXPECT_EQ(read_csv(write("t.csv", "\xEF\xBB\xBFtime_s,PK\n1,2\n")).values(0, 1), 2);
+}
+
 TEST_F(Csv, TextsStandLastAndBreakNoReader) {
   write_csv_with_text(path("t.csv"), {"a", "b"}, "why", 2,
                       [](long row, std::vector<double>& values) -> std::string {

@@ -49,6 +49,11 @@ TEST_F(Trc, RoundTripInEachUnit) {
   }
 }
 
+TEST_F(Trc, APdfIsNamed) {
+  const auto file = write("m.trc", "%PDF-1.4\n");
+  expect_refused(file, "is a PDF, not a table of text", [&] { read_trc(file); });
+}
+
 const std::string head =
     "PathFileType\t4\t(X/Y/Z)\tface.trc\r\n"
     "DataRate\tCameraRate\tNumFrames\tNumMarkers\tUnits\tOrigDataRate\tOrigDataStartFrame\t"

@@ -80,6 +80,51 @@ TEST(StartedInExpression, IsNotSeenWhereAMotionStartsAtRest) {
   EXPECT_FALSE(started_in_expression(smile(falls, 0.01, 10), at_rest(0)));  // too short to tell
 }
 
+/// Goes evenly to its peak within `rise_s` and stays there.
+Motion ramp(double rise_s, int samples, double amplitude_m = 0.01) {
+  return smile([=](double t) { return std::min(1.0, t / rise_s); }, amplitude_m, samples);
+}
+
+TEST(EndedInExpression, IsSeenWhereAMotionBreaksOff) {
+  for (const int samples : {20, 22, 24}) {
+    const auto ended = ended_in_expression(smile(rises_and_falls, 0.01, samples));
+    ASSERT_TRUE(ended) << samples;
+    EXPECT_TRUE(ended->point == "right" || ended->point == "left");
+    EXPECT_EQ(ended->before_end_s, 0);
+    const double at_end = rises_and_falls((samples - 1) / 30.0);
+    EXPECT_NEAR(ended->distance_m, 0.01 * std::numbers::sqrt2 * at_end, 1e-9);
+  }
+  // A last reading that noise puts a little nearer does not hide it.
+  Motion nearer = smile(rises_and_falls, 0.01, 20);
+  nearer.positions.back() = 0.1 * nearer.positions[17] + 0.9 * nearer.positions[18];
+  const auto ended = ended_in_expression(nearer);
+  ASSERT_TRUE(ended);
+  EXPECT_NEAR(ended->before_end_s, 1.0 / 30, 1e-9);
+}
+
+TEST(EndedInExpression, IsNotSeenWhereItIsComplete) {
+  EXPECT_FALSE(ended_in_expression(smile(rises_and_falls)));            // back at rest
+  EXPECT_FALSE(ended_in_expression(smile(rises_and_falls, 0.01, 31)));  // slow at the peak
+  EXPECT_FALSE(ended_in_expression(smile(rises_and_falls, 0.01, 50)));  // on its way back
+  EXPECT_FALSE(ended_in_expression(ramp(1, 31)));                       // as those of a rig
+  EXPECT_FALSE(ended_in_expression(ramp(0.5, 25)));                     // held for 0.3 s
+  // Complete once, and cut in a second one.
+  const auto twice = [](double t) { return (t < 1 ? 1 : 0.8) * rises_and_falls(2 * t); };
+  EXPECT_FALSE(ended_in_expression(smile(twice, 0.01, 44)));
+}
+
+TEST(EndedInExpression, IsNotToldOfTooLittle) {
+  EXPECT_TRUE(ended_in_expression(smile(rises_and_falls, 0.01, 19)));
+  EXPECT_FALSE(ended_in_expression(smile(rises_and_falls, 0.01, 18)));   // shorter than 0.6 s
+  EXPECT_FALSE(ended_in_expression(smile(rises_and_falls, 0.002, 19)));  // 1.9 mm
+  Motion coarse = smile(rises_and_falls, 0.01, 19);
+  for (double& t : coarse.time_s) t *= 4;
+  EXPECT_FALSE(ended_in_expression(coarse));
+  Motion lost = smile(rises_and_falls, 0.01, 20);
+  for (Points& sample : lost.positions) sample.row(2).setConstant(testing::nan);
+  EXPECT_TRUE(ended_in_expression(lost));  // by the other corner
+}
+
 TEST(WithRest, LeadsAnExpressionInFromRest) {
   const Motion m = smile(falls);
   const RestedMotion rested = with_rest(m, {1.2, 1.8});

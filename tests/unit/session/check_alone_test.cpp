@@ -99,6 +99,23 @@ TEST(CheckAlone, SidesThatAreExchangedLessSurelyAreAWarning) {
                                 says("7.7 mm rms"), says("4.9 mm with one axis negated"))));
 }
 
+TEST(CheckAlone, OneExchangedPairAmongOthersIsRefused) {
+  motion::Motion m;
+  m.source = "alone.csv";
+  m.time_s = {0};
+  m.positions.emplace_back(68, 3);
+  for (int i = 0; i < 68; ++i) {
+    m.names.push_back(face::ibug(i));
+    m.positions[0].row(i) = average_face().landmarks.at(m.names.back()).transpose();
+  }
+  EXPECT_THAT(check_alone(m), IsEmpty());
+  m.positions[0].row(48).swap(m.positions[0].row(54));
+  EXPECT_THAT(test::refusal([&] { check_alone(m); }),
+              AllOf(HasSubstr("alone.csv: left and right are exchanged in ibug68_48 and ibug68_54 "
+                              "(corner of the mouth): "),
+                    HasSubstr("an average face"), HasSubstr("exchange their names")));
+}
+
 TEST(CheckAlone, TheFirstSampleWithTheMostPointsIsJudged) {
   motion::Motion m = still_points_of(average_face().landmarks);
   m.positions[0].topRows(5).setConstant(std::numeric_limits<double>::quiet_NaN());

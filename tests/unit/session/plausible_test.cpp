@@ -81,11 +81,37 @@ TEST(AverageFace, TellsHowRealRecordingsStart) {
     EXPECT_THAT(start(late), Optional(AllOf(is_warning("recording.starts_in_expression"),
                                             is_about("motion.rest_s"), says("an average face"))));
   EXPECT_EQ(start_warning(backwards(smile), average, true), std::nullopt) << "weights know rest";
+  for (const auto& whole : {smile, opening, talk}) EXPECT_TRUE(extent_warnings(whole).empty());
+  EXPECT_THAT(extent_warnings(backwards(smile)),
+              testing::ElementsAre(AllOf(is_warning("recording.starts_in_expression"),
+                                         says("so give a recording that begins at rest"))));
+  const motion::Motion half = motion::until(smile, 0.65, "end_s");
+  EXPECT_THAT(extent_warnings(half),
+              testing::ElementsAre(AllOf(is_warning("recording.ends_in_expression"),
+                                         says("in the last sample, and is still on its way"))));
   for (auto exchanged : {smile, opening, talk}) {
     EXPECT_NO_THROW(check_sides(exchanged, average));
     for (Points& sample : exchanged.positions) sample.col(0) *= -1;
     EXPECT_THROW(check_sides(exchanged, average), InputError);
   }
+}
+
+TEST(EndWarning, NamesThePointAndItsWay) {
+  motion::Motion m;
+  m.names = {"ibug68_48"};
+  for (int k = 0; k < 24; ++k) {
+    m.time_s.push_back(k / 30.0);
+    m.positions.emplace_back((Points(1, 3) << 0, 1e-5 * k * k, 0).finished());
+  }
+  EXPECT_THAT(end_warning(m),
+              Optional(AllOf(is_warning("recording.ends_in_expression"), is_about("motion.file"),
+                             says("(5.3 mm)"), says("ibug68_48 (corner of the mouth, right)"),
+                             says("may not be complete"))));
+  EXPECT_THAT(extent_warnings(m), testing::ElementsAre(is_warning("recording.ends_in_expression")));
+  m.positions.back() = m.positions[21];
+  EXPECT_THAT(end_warning(m), Optional(says("0.03 s before the end")));
+  for (Points& at : m.positions) at *= 0.3;
+  EXPECT_EQ(end_warning(m), std::nullopt);
 }
 
 TEST(MisfitWarning, DependsOnHowManyPointsAreCommon) {

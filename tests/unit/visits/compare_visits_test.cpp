@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <map>
+
 #include "hyperex/metrics/symmetry.hpp"
 #include "hyperex/visits/summary.hpp"
 #include "smiling_face.hpp"
@@ -189,6 +191,77 @@ TEST(CompareVisits, RecordingsOfAVisitMeasureItsRepetition) {
   EXPECT_NEAR(right.changes.back()->all->high - right.changes.back()->value,
               t_of_3 * deviation * std::sqrt(1.0 / 3 + 1.0 / 2), 0.02 * whole_mm);
   EXPECT_THAT(repetition_sentence(two), HasSubstr("measured"));
+}
+
+/// The points of a recording without those of these names.
+motion::Motion without_points(motion::Motion m, const std::vector<std::string>& names) {
+  for (const std::string& name : names) m.names[std::size_t(m.index_of(name))] = "other_" + name;
+  return m;
+}
+
+TEST(CompareVisits, ASideThatIsNotRecordedIsNamed) {
+  const VisitsFile file = visits_of(2);
+  const motion::Motion whole = recording_of({}), half = without_points(whole, {"ibug68_48"});
+  const MeasuredFace both = measure(whole, file, 0.0, nullptr),
+                     left = measure(half, file, 0.0, nullptr),
+                     left_later = measure(half, file, 0.0, &both);
+  EXPECT_EQ(summary(compare(file, {{both}, {left_later}}))[0],
+            "Right corner of the mouth: 11.5 mm (day 1), not recorded (day 2): not compared.");
+  const std::vector<std::string> never = summary(compare(file, {{left}, {left}}));
+  EXPECT_EQ(never[0], "Right corner of the mouth: not recorded at any visit.");
+  EXPECT_THAT(never[1], testing::StartsWith("Left corner of the mouth: 11."));
+  EXPECT_EQ(summary(compare(visits_of(1), {{left}}))[0],
+            "Right corner of the mouth: not recorded.");
+}
+
+/// The smile of `excursion_mm`, each measure of its right corner from a first to a last value.
+Comparison of_right_corner(double change_mm,
+                           const std::map<std::string, std::pair<double, double>>& parts) {
+  Comparison two = of_smiles({{Smile{}}, {Smile{}}});
+  for (MeasureOverVisits& one : two.measures) {
+    if (one.measure.side != "R") continue;
+    if (one.measure.key == "corner_excursion") {
+      one.values[1]->value = one.values[0]->value + change_mm;
+      one.changes[1] = Change{.value = change_mm,
+                              .all = Interval{change_mm - 2, change_mm + 2},
+                              .beyond = std::abs(change_mm) > 2 ? Beyond::yes : Beyond::no,
+                              .largest = ""};
+    }
+    if (const auto part = parts.find(one.measure.key); part != parts.end()) {
+      const auto [first, last] = part->second;
+      one.values[0]->value = first;
+      one.values[1]->value = last;
+      const double half = one.measure.unit == "mm" ? 2 : 15;
+      one.changes[1] = Change{.value = last - first,
+                              .all = Interval{last - first - half, last - first + half},
+                              .beyond = std::abs(last - first) > half ? Beyond::yes : Beyond::no,
+                              .largest = ""};
+    }
+  }
+  return two;
+}
+
+TEST(CompareVisits, AChangeOfDirectionStandsInTheSentence) {
+  const auto right = [](double change_mm,
+                        const std::map<std::string, std::pair<double, double>>& parts) {
+    return summary(of_right_corner(change_mm, parts))[0];
+  };
+  EXPECT_THAT(right(-0.3, {{"corner_up", {3.9, -3.9}}, {"smile_angle", {40, -129}}}),
+              HasSubstr("within what measurement and repetition make, but its direction has "
+                        "changed (upward 3.9 to -3.9 mm)."));
+  EXPECT_THAT(right(-4, {{"corner_outward", {5, -1}}, {"corner_forward", {-6, 9}}}),
+              HasSubstr("make, and its direction has changed (outward 5.0 to -1.0 mm, forward "
+                        "-6.0 to 9.0 mm)."));
+  EXPECT_THAT(right(-0.3, {{"smile_angle", {40, 70}}}),
+              HasSubstr("but its direction has changed (angle 40 to 70 degrees)."));
+  for (const std::pair<double, double>& angles :
+       {std::pair{40.0, 50.0}, {-175.0, 178.0}, {170.0, -178.0}})
+    EXPECT_THAT(right(-0.3, {{"smile_angle", angles}}), Not(HasSubstr("direction")));
+  EXPECT_THAT(right(-0.3, {{"smile_angle", {-100.0, 160.0}}}), HasSubstr("direction"));
+  EXPECT_THAT(right(-0.3, {{"corner_up", {0.9, -0.9}}}), Not(HasSubstr("direction")));
+  EXPECT_THAT(right(-0.3, {{"corner_up", {9.0, 5.0}}}), Not(HasSubstr("direction")));
+  EXPECT_THAT(right(-10.5, {{"corner_up", {9.0, -0.9}}}), Not(HasSubstr("direction")))
+      << "1 mm has none";
 }
 
 TEST(CompareVisits, SayWhatChangedInSentences) {

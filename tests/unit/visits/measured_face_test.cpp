@@ -118,13 +118,46 @@ TEST(MeasuredFace, RemarksNameTheFileWithoutItsFolders) {
     EXPECT_EQ(remark.find("Jane"), std::string::npos) << remark;
 }
 
+TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
+  const auto part = [](std::size_t from, std::size_t to) {
+    const motion::Motion whole = recording_of({});
+    motion::Motion m = whole;
+    m.time_s = {whole.time_s.begin() + long(from), whole.time_s.begin() + long(to)};
+    m.positions = {whole.positions.begin() + long(from), whole.positions.begin() + long(to)};
+    return measure(m, visits_of(1), 0.0, nullptr).extent_doubts;
+  };
+  EXPECT_THAT(part(0, 90), testing::IsEmpty());
+  EXPECT_THAT(part(0, 45), testing::IsEmpty()) << "held at its peak";
+  EXPECT_THAT(part(0, 24), testing::ElementsAre(HasSubstr("ends in an expression")));
+  EXPECT_THAT(part(40, 90), testing::ElementsAre(HasSubstr("seems to start in an expression")));
+}
+
 TEST(MeasuredFace, AnotherSizeIsRemarked) {
   const MeasuredFace first = exact({});
   motion::Motion larger = recording_of({});
   for (Points& at : larger.positions) at *= 1.05;
   const MeasuredFace second = measure(larger, visits_of(2), 0.0, &first);
   ASSERT_EQ(second.remarks.size(), 1u);
-  EXPECT_THAT(second.remarks[0], HasSubstr("may not be comparable"));
+  EXPECT_THAT(second.remarks[0],
+              HasSubstr("it may be another person or another scale, and lengths may not be "
+                        "comparable"));
+}
+
+TEST(MeasuredFace, AnotherShapeMayBeAnotherPerson) {
+  const MeasuredFace first = exact({});
+  const auto remarks = [&](double along_m) {
+    motion::Motion other = recording_of({});
+    other.source = "other.csv";
+    for (Points& at : other.positions)
+      for (Eigen::Index p = 0; p < at.rows(); ++p) at(p, 2) += p % 2 ? along_m : -along_m;
+    return measure(other, visits_of(2), 0.0, &first).remarks;
+  };
+  EXPECT_THAT(remarks(0.003), testing::Not(testing::Contains(HasSubstr("another person"))));
+  EXPECT_THAT(remarks(0.008), testing::Contains(testing::AllOf(
+                                  HasSubstr("other.csv: the points at rest are "),
+                                  HasSubstr("from those of smile.csv"),
+                                  HasSubstr("(expected of one person: at most 5 mm): it may be "
+                                            "another person"))));
 }
 
 TEST(MeasuredFace, AnotherScaleIsRemarkedWithBothFilesAndTheRatio) {
