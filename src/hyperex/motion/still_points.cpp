@@ -341,15 +341,13 @@ StillPoints points_to_hold_the_head(const std::vector<const Motion*>& motions) {
     if (steady.poses.empty() || !stay_by_landmarks(steady, still.rows[i])) return {};
     moves = moves || face_moves(steady.motion);
   }
-  return moves ? std::move(still.points) : StillPoints();
+  if (!moves) return {};
+  still.points.beside_landmarks = true;
+  return std::move(still.points);
 }
 
 StillPoints points_to_hold_the_head(const Motion& motion) {
   return points_to_hold_the_head(std::vector{&motion});
-}
-
-std::vector<std::string> rigid_points_to_name(const Motion& motion) {
-  return points_to_hold_the_head(motion).names;
 }
 
 }  // namespace hyperex::motion

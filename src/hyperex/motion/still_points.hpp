@@ -70,6 +70,8 @@ std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& s
 struct StillPoints {
   std::vector<std::string> names;
   std::vector<UnsteadyPoint> left_out;  ///< with their movement against the others
+  /// Landmarks of the face would give a pose in every recording, too.
+  bool beside_landmarks = false;
 };
 
 /// The points that hold the head's pose where the user names none: those of
@@ -79,9 +81,5 @@ struct StillPoints {
 /// then the landmarks hold it.
 StillPoints points_to_hold_the_head(const Motion& motion);
 StillPoints points_to_hold_the_head(const std::vector<const Motion*>& motions);
-
-/// The points that a new scene of this motion should name in motion.rigid_points: those of
-/// points_to_hold_the_head().
-std::vector<std::string> rigid_points_to_name(const Motion& motion);
 
 }  // namespace hyperex::motion
