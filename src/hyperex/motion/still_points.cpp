@@ -13,6 +13,7 @@
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/jitter.hpp"
 #include "hyperex/motion/rigid_set.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
 
@@ -210,8 +211,11 @@ bool face_moves(const Motion& motion) {
 
 /// Whether these points move with the skull by the landmarks of the face, too, which those of the
 /// lower teeth do not: at 95 % of the samples their displacement (root mean square) is within what
-/// an error of the landmarks' pose makes there (95 %), and kStillPoints_m.
+/// an error of the landmarks' pose and the points' jitter in both samples make there (95 %), and
+/// kStillPoints_m.
 bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& rows) {
+  const double jitter_m = jitter_of_motion(steady.motion, rows);
+  const double of_jitter = std::isnan(jitter_m) ? 0 : 6 * jitter_m * jitter_m;
   std::size_t off = 0;
   for (std::size_t k = 0; k < steady.poses.size(); ++k) {
     const UncertainPose& pose = steady.poses[k];
@@ -223,7 +227,9 @@ bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& r
       variance += (arm * pose.covariance * arm.transpose()).trace();
     }
     const auto count = double(rows.size());
-    if (std::sqrt(moved / count) > kWithin95 * std::sqrt(variance / count) + kStillPoints_m) ++off;
+    if (std::sqrt(moved / count) >
+        kWithin95 * std::sqrt(variance / count + of_jitter) + kStillPoints_m)
+      ++off;
   }
   return 20 * off <= steady.poses.size();
 }

@@ -61,7 +61,8 @@ std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>&
 ///  * They do not lie nearly on a line, and two are at least 50 mm apart.
 ///  * Some point of the face moves by more than 3 mm.
 ///  * By the landmarks they stay, too: root mean square displacement within the 95 % bound of the
-///    landmarks' pose and kStillPoints_m, in 95 % of the samples. Points of the lower teeth do not.
+///    landmarks' pose and their jitter, and kStillPoints_m, in 95 % of the samples. Points of the
+///    lower teeth do not.
 /// In the motion's order; else empty, as where `steady` has no poses.
 std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& steady);
 
