@@ -19,6 +19,7 @@
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/still_points.hpp"
+#include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/check_alone.hpp"
@@ -129,9 +130,11 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.motion = seen_from(folder, motion);
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
   std::vector<std::string> doubts;
+  motion::StillPoints still;
   if (made.motion_key == "motion.file" && motion != "embedded") {
     const motion::Motion points = motion::read_motion(motion);
-    made.rigid_points = motion::rigid_points_to_name(points);
+    still = session::points_to_hold_the_head(points);
+    made.rigid_points = still.names;
     doubts = session::doubts_of_names(points, made.rigid_points);
     add_doubts_of_sides(points, doubts);
   }
@@ -140,6 +143,8 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   const std::string text = scene::new_scene_text(made);
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
   for (const std::string& doubt : doubts) spdlog::warn("{}", doubt);
+  if (!still.names.empty())
+    std::cout << motion::still_points_sentence(still) << " (motion.rigid_points)\n";
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //
       printable(to.string()), printable(made.name));

@@ -118,22 +118,15 @@ void report_guessed_unit(const motion::Motion& motion) {
 }
 
 /// Says which points hold the head's pose, as the user did not name them.
-void report_still_points(const std::vector<std::string>& names) {
-  if (!names.empty())
-    std::cerr << motion::still_points_sentence(names)
-              << "; --rigid-points names others, --keep-head keeps the head in\n";
+void report_still_points(const motion::StillPoints& still) {
+  if (!still.names.empty())
+    std::cerr << motion::still_points_sentence(still)
+              << "; --rigid-points changes that, --keep-head keeps the head in\n";
 }
 
-/// Says which points of the skull are there and do not count, as the user did not name them.
-void report_unused_still_points(const motion::StabilisedMotion& steady) {
-  const std::vector<std::string> still = motion::still_points_beside_landmarks(steady);
-  if (!still.empty())
-    std::cerr << motion::unused_still_points_sentence(still) << "; --rigid-points "
-              << fmt::format("{}", fmt::join(still, ",")) << " uses them\n";
-}
-
-/// Without --rigid-points, the pose is that of the face's landmarks, or of the points that the
-/// recording itself shows to be still. Where there are neither, the head stays in.
+/// Without --rigid-points, the pose is that of the points that the recording itself shows to be
+/// still, as hyperex new names them, or of the face's landmarks. Where there are neither, the head
+/// stays in.
 motion::StabilisedMotion without_head(const motion::Motion& motion,
                                       const SymmetryOptions& options) {
   if (options.keep_head) return motion::with_head_kept(motion);
@@ -145,12 +138,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
       throw InputError(error.sentence("--rigid-points"));
     }
   }
-  const std::vector<std::string> still = motion::proposed_rigid_points(motion);
-  motion::TriedPose tried = motion::try_stabilise(motion, still, "--rigid-points");
+  const motion::StillPoints still = motion::points_to_hold_the_head(motion);
+  motion::TriedPose tried = motion::try_stabilise(motion, still.names, "--rigid-points");
   if (!tried.why_not.empty())
     std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
-  else if (still.empty())
-    report_unused_still_points(tried.steady);
   else
     report_still_points(still);
   return std::move(tried.steady);
@@ -409,8 +400,8 @@ void add_symmetry(CLI::App& program) {
       ->add_option(
           "--rigid-points", options->rigid_points,
           "Points that carry the head's pose, with commas; of surfaces, names of --landmarks "
-          "(default: all landmarks; without those of the skull, points that keep their "
-          "distances)")
+          "(default: points beside the landmarks that keep still against each other, else all "
+          "landmarks)")
       ->delimiter(',')
       ->excludes("--keep-head");
   command->add_option("--unit", options->unit, "Unit of the motion (default: guessed)")

@@ -104,9 +104,9 @@ void add_visits(CLI::App& program) {
       "visits",
       "What changed between visits: one patient's expression, recorded on several days, measured "
       "at its peak. Each change has a 95 % interval and says whether it is beyond what measurement "
-      "and the repetition of an expression make (docs/visits.md). Where a recording lacks the "
-      "usual points of the skull and FILE names no rigid_points, the points that keep their "
-      "distances in every recording hold the head, the same at all visits. No medical device.");
+      "and the repetition of an expression make (docs/visits.md). Where FILE names no "
+      "rigid_points, the points beside the landmarks that keep still in every recording hold the "
+      "head, the same at all visits; where there are none, the landmarks do. No medical device.");
   command
       ->add_option("FILE", options->file,
                    "The visits (TOML): patient, expression, and tables [[visit]] with date and "

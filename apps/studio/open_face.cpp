@@ -114,8 +114,12 @@ json OpenFace::replay(report::BinaryBlock& block, bool with_face) const {
   summary["symmetry"] = metrics::summary_of(all.symmetry);
   summary["warnings"] = texts_of(all.notes, Severity::warning);
   summary["remarks"] = session::remarks_json(all.notes);
-  summary["head_shift_uncertainty_mm"] = all.inputs.head_shift_uncertainty_mm;
-  summary["head_turn_uncertainty_deg"] = all.inputs.head_turn_uncertainty_deg;
+  if (all.inputs.head_uncertainty_known) {
+    summary["head_shift_uncertainty_mm"] = all.inputs.head_shift_uncertainty_mm;
+    summary["head_turn_uncertainty_deg"] = all.inputs.head_turn_uncertainty_deg;
+  } else {
+    summary["head_shift_uncertainty_mm"] = summary["head_turn_uncertainty_deg"] = nullptr;
+  }
   const simulate::Performance& p = all.simulation.performance;
   summary["peak_time_s"] = p.frame_time_s[std::size_t(p.peak_frame)];
   if (all.uncertainty)

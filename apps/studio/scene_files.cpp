@@ -14,11 +14,11 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/zip.hpp"
 #include "hyperex/motion/read_motion.hpp"
-#include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene_text.hpp"
 #include "hyperex/scene/toml_values.hpp"
+#include "hyperex/session/recording_names.hpp"
 #include "upload_name.hpp"
 
 namespace hyperex::studio {
@@ -97,7 +97,7 @@ std::string moved_by(const std::string& text, const fs::path& recording) {
   const std::string key = scene::recording_key(recording);
   const std::string moved = scene::with_value(text, key, fs::absolute(recording).string());
   if (key != "motion.file") return moved;
-  const auto rigid = motion::rigid_points_to_name(motion::read_motion(recording));
+  const auto rigid = session::points_to_hold_the_head(motion::read_motion(recording)).names;
   return rigid.empty() ? moved : scene::with_value(moved, "motion.rigid_points", rigid);
 }
 

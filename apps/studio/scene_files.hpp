@@ -17,7 +17,7 @@ std::string_view embedded_smile();
 
 /// The scene `text`, which names no motion yet, moved by a recording. Where a recording of points
 /// shows points that are still as those of the skull are, the scene names them
-/// (motion::rigid_points_to_name). Throws InputError where such a recording cannot be read.
+/// (session::points_to_hold_the_head). Throws InputError where such a recording cannot be read.
 std::string moved_by(const std::string& text, const std::filesystem::path& recording);
 /// The scene moved by another recording. Options of the previous recording are removed; the face
 /// and all other options stay.

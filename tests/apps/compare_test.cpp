@@ -323,15 +323,15 @@ TEST_F(Program, SymmetryTakesTheHeadOutByNamedPoints) {
   // The recording itself shows which points are still.
   const Outcome own = call("symmetry motion.csv --excursions own.csv");
   EXPECT_THAT(own.err,
-              testing::AllOf(HasSubstr("head pose: taken out by head_1, head_2, head_3, head_4, "
-                                       "head_5, head_6, which keep their distances"),
-                             HasSubstr("--rigid-points names others, --keep-head keeps")));
+              testing::AllOf(HasSubstr("the head is held by head_1, head_2, head_3, head_4, "
+                                       "head_5, head_6, which keep still against each other"),
+                             HasSubstr("--rigid-points changes that, --keep-head keeps")));
   EXPECT_EQ(read_file(in("own.csv")), read_file(in("named.csv")));
   EXPECT_THAT(own.out, HasSubstr("head's pose: no noise is seen in the points that hold it"));
   EXPECT_THAT(call("symmetry motion.csv --jitter-mm 0").out,
               HasSubstr("head's pose: exact, as the points are"));
   EXPECT_THAT(call("symmetry motion.csv --keep-head").err,
-              testing::Not(HasSubstr("head pose: taken out")));
+              testing::Not(HasSubstr("the head is held by")));
   write_opening(in(""), 0, 16);
   ASSERT_EQ(call("symmetry motion.csv --excursions whole.csv --rigid-points "
                  "ibug68_17,ibug68_21,ibug68_26,ibug68_27,ibug68_36,ibug68_45")

@@ -93,21 +93,31 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
   const std::string scene = read_file(in("me.toml"));
   EXPECT_THAT(scene, HasSubstr("rigid_points = [\"head_1\", \"head_2\", \"head_3\", "
                                "\"head_4\", \"head_5\", \"head_6\"]"));
-  EXPECT_THAT(scene, HasSubstr("# These keep their distances from each other"));
-  // check, symmetry and visits name these points where no option uses them.
+  EXPECT_THAT(scene, HasSubstr("# These keep still against each other"));
+  EXPECT_THAT(made.out, HasSubstr("the head is held by head_1, head_2, head_3, head_4, head_5, "
+                                  "head_6, which keep still against each other"));
+  // A scene that does not name them is told so.
   const std::string sentence =
       "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
       "as points of the skull do, and are not used; ";
   EXPECT_THAT(call("check scene.toml").out,
               HasSubstr(sentence + "name them in motion.rigid_points"));
-  const Outcome symmetry = call("symmetry motion.csv --jitter-mm 0");
-  EXPECT_THAT(symmetry.err, HasSubstr(sentence + "--rigid-points head_1,head_2,head_3,head_4,"
-                                                 "head_5,head_6 uses them"));
   put(in("v.toml"),
       "patient = \"P\"\n[[visit]]\ndate = 2026-03-01\nrecording = \"motion.csv\"\n"
       "jitter_mm = 0\n");
+  // symmetry and visits use the same points.
+  const std::string held =
+      "the head is held by head_1, head_2, head_3, head_4, head_5, head_6, which keep still "
+      "against each other; ";
   EXPECT_THAT(call("visits v.toml").err,
-              HasSubstr(sentence + "name them in rigid_points of the visits"));
+              HasSubstr(held + "the same in every recording; rigid_points of the visits changes"));
+  const Outcome own = call("symmetry motion.csv --jitter-mm 0 --excursions own.csv");
+  EXPECT_THAT(own.err, HasSubstr(held + "--rigid-points changes that"));
+  ASSERT_EQ(call("symmetry motion.csv --jitter-mm 0 --excursions named.csv --rigid-points "
+                 "head_1,head_2,head_3,head_4,head_5,head_6")
+                .status,
+            0);
+  EXPECT_EQ(read_file(in("own.csv")), read_file(in("named.csv")));
   for (const std::string& used :
        {call("check me.toml --set scan.landmarks=face_landmarks.json").out,
         call("symmetry motion.csv --jitter-mm 0 --rigid-points head_1,head_2,head_3").err})

@@ -212,7 +212,7 @@ constexpr NoteKind kKinds[] = {
     "The head's position is uncertain by 1 to 3 mm (95 %)."),
   note("head.still_points_unused", "motion.rigid_points",
     "The head's pose is that of the face's landmarks, and points beside them are still as those of "
-    "the skull: they keep their distances to 0.2 mm and twice their jitter."),
+    "the skull: they move against each other by at most 0.2 mm beyond their jitter."),
   note("tissue.matched_by_place", "tissue.per_vertex",
     "Values per vertex are in another order than the scan's vertices and were matched by place."),
   note("tissue.values_averaged", "tissue.per_vertex",

@@ -77,6 +77,13 @@ struct PairExcursion {
   double twin_left_mm = std::numeric_limits<double>::quiet_NaN();
   double twin_right_mm = std::numeric_limits<double>::quiet_NaN();
   KnownNoise known;  ///< the floors contain only the noise that is known
+  /// A floor below this is that of points without any noise.
+  static constexpr double kNoFloor_mm = 5e-4;
+  /// False, too, where no noise is seen in the points that hold the head and none is stated.
+  bool pose_floor_known() const {
+    return known.head && (known.jitter || pose_floor_mm > kNoFloor_mm);
+  }
+  bool floor_known() const { return known.all() || floor_mm() > kNoFloor_mm; }
   /// False: a run simulated this point, and its recording does not show it (recorded_sides.hpp).
   bool left_recorded = true, right_recorded = true;
 

@@ -46,9 +46,9 @@ Json pair_json(const PairExcursion& p) {
   json["difference_mm"] = number(p.difference_mm());
   json["jitter_floor_mm"] = floor_json(p.known.jitter, p.jitter_floor_mm);
   json["mesh_floor_mm"] = number(p.mesh_floor_mm);
-  json["pose_floor_mm"] = floor_json(p.known.head, p.pose_floor_mm);
+  json["pose_floor_mm"] = floor_json(p.pose_floor_known(), p.pose_floor_mm);
   json["repetition_floor_mm"] = p.repetition_floor_mm;
-  json["floor_mm"] = floor_json(p.known.all() || p.floor_mm() > 0, p.floor_mm());
+  json["floor_mm"] = floor_json(p.floor_known(), p.floor_mm());
   json["largest_part"] = largest_part_of(p);
   json["undecided"] = undecided_json(p.decided(p.undecided));
   return json;

@@ -14,6 +14,7 @@
 #include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/rigid_set.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
 
 namespace hyperex::motion {
@@ -24,7 +25,7 @@ constexpr std::size_t kLeastStillPoints = 4;
 constexpr double kLeastStillSpread = 0.02;  // the least that stabilise() accepts
 
 // Beside the landmarks of the face, which give a pose already.
-/// What a band gives, in addition to jitter.
+/// What a band gives, beyond jitter.
 constexpr double kBandGives_m = 0.2e-3;
 /// A smaller set turns the head by its own jitter.
 constexpr double kLeastStillSize_m = 0.05;
@@ -59,9 +60,10 @@ struct CommonPoints {
   std::vector<std::vector<int>> rows;  ///< of each motion, in the order of the names
 };
 
-CommonPoints common_candidates(const std::vector<const Motion*>& motions) {
+CommonPoints common_points(const std::vector<const Motion*>& motions,
+                           std::vector<int> (*candidates_of)(const Motion&)) {
   std::vector<std::vector<int>> of_each;
-  for (const Motion* motion : motions) of_each.push_back(candidates(*motion));
+  for (const Motion* motion : motions) of_each.push_back(candidates_of(*motion));
   CommonPoints common{{}, std::vector<std::vector<int>>(motions.size())};
   for (const int first : of_each.front()) {
     const std::string& name = motions.front()->names[std::size_t(first)];
@@ -77,23 +79,6 @@ CommonPoints common_candidates(const std::vector<const Motion*>& motions) {
     for (std::size_t i = 0; i < motions.size(); ++i) common.rows[i].push_back(rows[i]);
   }
   return common;
-}
-
-/// The largest change of the distance between each pair of `points`.
-Eigen::MatrixXd distance_changes(const Motion& motion, const std::vector<int>& points) {
-  const auto count = Eigen::Index(points.size());
-  Eigen::MatrixXd most = Eigen::MatrixXd::Zero(count, count);
-  const std::size_t step = std::max<std::size_t>(1, motion.positions.size() / kMostStillSamples);
-  for (std::size_t k = 0; k < motion.positions.size(); k += step)
-    for (Eigen::Index i = 0; i < count; ++i)
-      for (Eigen::Index j = i + 1; j < count; ++j) {
-        const int a = points[std::size_t(i)], b = points[std::size_t(j)];
-        const auto distance = [&](const Points& at) { return (at.row(a) - at.row(b)).norm(); };
-        const double change =
-            std::abs(distance(motion.positions[k]) - distance(motion.positions.front()));
-        most(i, j) = most(j, i) = std::max(most(i, j), change);
-      }
-  return most;
 }
 
 /// The points at evenly spaced samples, each coordinate the median of at most five samples about
@@ -161,32 +146,6 @@ Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eig
   return worst;
 }
 
-/// The largest set found whose distances change by at most `allowed_m`, in rising order; of several
-/// the one whose distances change least in sum.
-std::vector<Eigen::Index> largest_still_set(const Eigen::MatrixXd& change, double allowed_m) {
-  std::vector<Eigen::Index> best;
-  double best_sum_m = 0;
-  for (Eigen::Index seed = 0; seed < change.rows(); ++seed) {
-    std::vector<Eigen::Index> nearest(std::size_t(change.rows()));
-    for (std::size_t i = 0; i < nearest.size(); ++i) nearest[i] = Eigen::Index(i);
-    std::ranges::stable_sort(nearest, {}, [&](Eigen::Index i) { return change(seed, i); });
-    std::vector<Eigen::Index> set;
-    for (const Eigen::Index i : nearest)
-      if (std::ranges::all_of(set,
-                              [&](Eigen::Index other) { return change(i, other) <= allowed_m; }))
-        set.push_back(i);
-    double sum_m = 0;
-    for (const Eigen::Index i : set)
-      for (const Eigen::Index j : set) sum_m += change(i, j);
-    if (set.size() > best.size() || (set.size() == best.size() && sum_m < best_sum_m)) {
-      best = set;
-      best_sum_m = sum_m;
-    }
-  }
-  std::ranges::sort(best);
-  return best;
-}
-
 bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
   Points at(Eigen::Index(rows.size()), 3);
   for (std::size_t i = 0; i < rows.size(); ++i)
@@ -194,14 +153,41 @@ bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
   return spread_off_line(at) < kLeastStillSpread;
 }
 
+bool names_a_landmark(const std::string& name) {
+  return face::is_known_landmark(face::full_name(name)) || !face::name_of_words(name).empty();
+}
+
 /// Candidates whose names are not those of landmarks, nor words for one.
 std::vector<int> beside_landmarks(const Motion& motion) {
   std::vector<int> rows = candidates(motion);
-  std::erase_if(rows, [&](int row) {
-    const std::string& name = motion.names[std::size_t(row)];
-    return face::is_known_landmark(face::full_name(name)) || !face::name_of_words(name).empty();
-  });
+  std::erase_if(rows, [&](int row) { return names_a_landmark(motion.names[std::size_t(row)]); });
   return rows;
+}
+
+/// Points of all motions that keep still against each other in each.
+struct CommonStill {
+  StillPoints points;
+  std::vector<std::vector<int>> rows;  ///< of the points, in each motion
+};
+
+/// The largest such set of the common points, of any size. Landmarks that move are not named: they
+/// are expected to.
+CommonStill still_among(const std::vector<const Motion*>& motions, const CommonPoints& common,
+                        double give_m) {
+  std::vector<TrackedPoints> tracked;
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    tracked.push_back(tracked_points(*motions[i], common.rows[i]));
+  const RigidSet set = largest_rigid_set(tracked, give_m);
+  CommonStill out{{}, std::vector<std::vector<int>>(motions.size())};
+  for (const Eigen::Index p : set.points) {
+    out.points.names.push_back(common.names[std::size_t(p)]);
+    for (std::size_t i = 0; i < motions.size(); ++i)
+      out.rows[i].push_back(common.rows[i][std::size_t(p)]);
+  }
+  for (const Eigen::Index p : set.left_out)
+    if (const std::string& name = common.names[std::size_t(p)]; !names_a_landmark(name))
+      out.points.left_out.push_back({name, set.moves_m[std::size_t(p)]});
+  return out;
 }
 
 /// How many of `count` points must keep their distances.
@@ -225,8 +211,11 @@ bool face_moves(const Motion& motion) {
 
 /// Whether these points move with the skull by the landmarks of the face, too, which those of the
 /// lower teeth do not: at 95 % of the samples their displacement (root mean square) is within what
-/// an error of the landmarks' pose makes there (95 %), and kStillPoints_m.
+/// an error of the landmarks' pose and the points' jitter in both samples make there (95 %), and
+/// kStillPoints_m.
 bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& rows) {
+  const double jitter_m = jitter_of_motion(steady.motion, rows);
+  const double of_jitter = std::isnan(jitter_m) ? 0 : 6 * jitter_m * jitter_m;
   std::size_t off = 0;
   for (std::size_t k = 0; k < steady.poses.size(); ++k) {
     const UncertainPose& pose = steady.poses[k];
@@ -238,9 +227,47 @@ bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& r
       variance += (arm * pose.covariance * arm.transpose()).trace();
     }
     const auto count = double(rows.size());
-    if (std::sqrt(moved / count) > kWithin95 * std::sqrt(variance / count) + kStillPoints_m) ++off;
+    if (std::sqrt(moved / count) >
+        kWithin95 * std::sqrt(variance / count + of_jitter) + kStillPoints_m)
+      ++off;
   }
   return 20 * off <= steady.poses.size();
+}
+
+bool all_have_samples(const std::vector<const Motion*>& motions) {
+  return !motions.empty() &&
+         std::ranges::all_of(motions, [](const Motion* m) { return m->positions.size() >= 2; });
+}
+
+bool all_have_pose_points(const std::vector<const Motion*>& motions) {
+  return std::ranges::all_of(motions, [](const Motion* m) { return has_pose_points(*m); });
+}
+
+bool any_near_a_line(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (lie_near_a_line(*motions[i], still.rows[i])) return true;
+  return false;
+}
+
+/// find_still_points() with the points that move.
+StillPoints still_without_landmarks(const std::vector<const Motion*>& motions) {
+  if (!all_have_samples(motions)) return {};
+  CommonStill still = still_among(motions, common_points(motions, candidates), kStillPoints_m);
+  if (still.points.names.size() < kLeastStillPoints || any_near_a_line(motions, still)) return {};
+  return std::move(still.points);
+}
+
+/// Candidates beside the landmarks that are still, many and far apart; else none.
+CommonStill still_beside_landmarks(const std::vector<const Motion*>& motions) {
+  if (!all_have_samples(motions)) return {};
+  const CommonPoints common = common_points(motions, beside_landmarks);
+  if (common.names.size() < 3) return {};
+  CommonStill still = still_among(motions, common, kBandGives_m);
+  if (still.points.names.size() < enough_of(common.names.size()) ||
+      any_near_a_line(motions, still) ||
+      greatest_distance(motions.front()->positions.front(), still.rows.front()) < kLeastStillSize_m)
+    return {};
+  return still;
 }
 
 }  // namespace
@@ -250,24 +277,7 @@ std::vector<std::string> find_still_points(const Motion& motion) {
 }
 
 std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions) {
-  if (std::ranges::any_of(motions, [](const Motion* m) { return m->positions.size() < 2; }))
-    return {};
-  if (motions.empty()) return {};
-  const CommonPoints common = common_candidates(motions);
-  const auto count = Eigen::Index(common.names.size());
-  Eigen::MatrixXd change = Eigen::MatrixXd::Zero(count, count);
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    change = change.cwiseMax(distance_changes(*motions[i], common.rows[i])).eval();
-  const std::vector<Eigen::Index> set = largest_still_set(change, kStillPoints_m);
-  if (set.size() < kLeastStillPoints) return {};
-  for (std::size_t i = 0; i < motions.size(); ++i) {
-    std::vector<int> rows;
-    for (const Eigen::Index k : set) rows.push_back(common.rows[i][std::size_t(k)]);
-    if (lie_near_a_line(*motions[i], rows)) return {};
-  }
-  std::vector<std::string> still;
-  for (const Eigen::Index k : set) still.push_back(common.names[std::size_t(k)]);
-  return still;
+  return still_without_landmarks(motions).names;
 }
 
 std::vector<std::string> own_names(const Motion& motion, const std::vector<std::string>& points) {
@@ -312,9 +322,7 @@ std::vector<std::string> proposed_rigid_points(const Motion& motion) {
 }
 
 std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>& motions) {
-  const bool all =
-      std::ranges::all_of(motions, [](const Motion* m) { return has_pose_points(*m); });
-  return all ? std::vector<std::string>() : find_still_points(motions);
+  return all_have_pose_points(motions) ? std::vector<std::string>() : find_still_points(motions);
 }
 
 std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& steady) {
@@ -322,27 +330,30 @@ std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& s
   if (motion.positions.size() < 2 || steady.poses.size() != motion.positions.size() ||
       !motion.skull_points.empty())
     return {};
-  const std::vector<int> rows = beside_landmarks(motion);
-  if (rows.size() < 3) return {};
-  const double jitter_m = jitter_of_motion(motion, rows);
-  const double allowed_m =
-      std::min(kStillPoints_m, kBandGives_m + 2 * (std::isnan(jitter_m) ? 0 : jitter_m));
-  std::vector<int> still;
-  for (const Eigen::Index i :
-       largest_still_set(usual_changes(smoothed_samples(motion, rows)), allowed_m))
-    still.push_back(rows[std::size_t(i)]);
-  if (still.size() < enough_of(rows.size()) || lie_near_a_line(motion, still) ||
-      greatest_distance(motion.positions.front(), still) < kLeastStillSize_m ||
-      !face_moves(motion) || !stay_by_landmarks(steady, still))
+  CommonStill still = still_beside_landmarks({&motion});
+  if (still.points.names.empty() || !face_moves(motion) ||
+      !stay_by_landmarks(steady, still.rows.front()))
     return {};
-  std::vector<std::string> names;
-  for (const int row : still) names.push_back(motion.names[std::size_t(row)]);
-  return names;
+  return std::move(still.points.names);
 }
 
-std::vector<std::string> rigid_points_to_name(const Motion& motion) {
-  if (!has_pose_points(motion)) return proposed_rigid_points(motion);
-  return still_points_beside_landmarks(try_stabilise(motion, {}, "rigid_points").steady);
+StillPoints points_to_hold_the_head(const std::vector<const Motion*>& motions) {
+  if (!all_have_pose_points(motions)) return still_without_landmarks(motions);
+  CommonStill still = still_beside_landmarks(motions);
+  if (still.points.names.empty()) return {};
+  bool moves = false;
+  for (std::size_t i = 0; i < motions.size(); ++i) {
+    const StabilisedMotion steady = try_stabilise(*motions[i], {}, "rigid_points").steady;
+    if (steady.poses.empty() || !stay_by_landmarks(steady, still.rows[i])) return {};
+    moves = moves || face_moves(steady.motion);
+  }
+  if (!moves) return {};
+  still.points.beside_landmarks = true;
+  return std::move(still.points);
+}
+
+StillPoints points_to_hold_the_head(const Motion& motion) {
+  return points_to_hold_the_head(std::vector{&motion});
 }
 
 }  // namespace hyperex::motion

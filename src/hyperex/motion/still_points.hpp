@@ -8,15 +8,14 @@
 
 namespace hyperex::motion {
 
-/// Points that keep their distances from each other over the whole recording, as points fixed to
-/// the skull do. A set is grown from each point in turn, such that no distance in it changes by
-/// more than kStillPoints_m; the largest set is returned, in the motion's order. Points of the
-/// mouth and the chin (face::moves_with_mouth()) are left out, since the lower lip and the chin
-/// also move together. Empty where fewer than four points are found, or where they lie nearly on a
-/// line. Of a long recording 200 to 400 evenly spaced samples are used.
+/// Points that keep still against each other over the whole recording, as points fixed to the skull
+/// do: the largest set whose points move by at most kStillPoints_m beyond their own jitter
+/// (largest_rigid_set()), in the motion's order. Points of the mouth and the chin
+/// (face::moves_with_mouth()) are left out, since the lower lip and the chin also move together.
+/// Empty where fewer than four points are found, or where they lie nearly on a line.
 std::vector<std::string> find_still_points(const Motion& motion);
 /// The same of several recordings of one face, not null: points that all of them have and that keep
-/// their distances in each. How far they are apart may differ between the recordings. They may have
+/// still in each. How far they are apart may differ between the recordings. They may have
 /// different names of one place (face::place_name) there; those of the first are returned.
 std::vector<std::string> find_still_points(const std::vector<const Motion*>& motions);
 
@@ -24,7 +23,7 @@ std::vector<std::string> find_still_points(const std::vector<const Motion*>& mot
 /// where it lacks the name itself. Points that it does not have keep their name.
 std::vector<std::string> own_names(const Motion& motion, const std::vector<std::string>& points);
 
-/// Allows for the motion of a marker glued to the skin over bone, and for measurement noise.
+/// Allows for the motion of a marker glued to the skin over bone.
 inline constexpr double kStillPoints_m = 1e-3;
 
 /// Whether a motion has enough of the usual points of the skull (default_rigid_points) to estimate
@@ -56,20 +55,32 @@ std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>&
 /// Points of the skull that a pose by the landmarks of the face leaves unused: markers of a band,
 /// of the ears, of the upper teeth. `steady`: of stabilise() without given points. Candidates are
 /// measured in every sample, and their names are not those of landmarks. All of this holds:
-///  * The distances between them change by at most 0.2 mm and twice their own jitter, and by at
-///    most kStillPoints_m: in 95 % of the samples, after a running median of five. Skin over bone
-///    changes more: on a speaker's forehead 0.6 to 1.2 mm.
+///  * They move against each other by at most 0.2 mm beyond what their jitter explains
+///    (largest_rigid_set()). Skin over bone moves more: on a speaker's forehead 0.6 to 1.2 mm.
 ///  * They are at least half of the candidates, or six; and four, or three of three.
 ///  * They do not lie nearly on a line, and two are at least 50 mm apart.
 ///  * Some point of the face moves by more than 3 mm.
 ///  * By the landmarks they stay, too: root mean square displacement within the 95 % bound of the
-///    landmarks' pose and kStillPoints_m, in 95 % of the samples. Points of the lower teeth do not.
+///    landmarks' pose and their jitter, and kStillPoints_m, in 95 % of the samples. Points of the
+///    lower teeth do not.
 /// In the motion's order; else empty, as where `steady` has no poses.
 std::vector<std::string> still_points_beside_landmarks(const StabilisedMotion& steady);
 
-/// The points that a new scene of this motion should name in motion.rigid_points: those of
-/// proposed_rigid_points(), or where the landmarks of the face give a pose,
-/// still_points_beside_landmarks().
-std::vector<std::string> rigid_points_to_name(const Motion& motion);
+/// Points that keep still against each other, and those of the same kind that do not: no landmarks
+/// of the face. `left_out` is empty where `names` is.
+struct StillPoints {
+  std::vector<std::string> names;
+  std::vector<UnsteadyPoint> left_out;  ///< with their movement against the others
+  /// Landmarks of the face would give a pose in every recording, too.
+  bool beside_landmarks = false;
+};
+
+/// The points that hold the head's pose where the user names none: those of
+/// still_points_beside_landmarks(), or where landmarks of the face give no pose
+/// (has_pose_points()), those of find_still_points(). Of several recordings of one face, not null,
+/// one set for all, by the first one's names: points that are still in each. Empty: none are found;
+/// then the landmarks hold it.
+StillPoints points_to_hold_the_head(const Motion& motion);
+StillPoints points_to_hold_the_head(const std::vector<const Motion*>& motions);
 
 }  // namespace hyperex::motion

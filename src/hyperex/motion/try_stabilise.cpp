@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/motion/option_error.hpp"
 
 namespace hyperex::motion {
@@ -27,11 +28,18 @@ TriedPose try_stabilise(const Motion& motion, const std::vector<std::string>& st
   }
 }
 
-std::string still_points_sentence(const std::vector<std::string>& still_points) {
-  return fmt::format(
-      "head pose: taken out by {}, which keep their distances from each other, as points of the "
-      "skull do",
-      fmt::join(still_points, ", "));
+std::string still_points_sentence(const StillPoints& still_points) {
+  constexpr std::size_t most_named = 8;
+  std::string sentence = fmt::format("the head is held by {}, which keep still against each other",
+                                     fmt::join(still_points.names, ", "));
+  std::vector<std::string> not_used;
+  for (const UnsteadyPoint& point : still_points.left_out)
+    if (not_used.size() < most_named)
+      not_used.push_back(
+          fmt::format("{} (moves by {:.1f} mm against them)", point.name, 1e3 * point.change_m));
+  add_rest(not_used, still_points.left_out.size());
+  if (!not_used.empty()) sentence += fmt::format("; not used: {}", fmt::join(not_used, ", "));
+  return sentence;
 }
 
 std::string unused_still_points_sentence(const std::vector<std::string>& still_points) {

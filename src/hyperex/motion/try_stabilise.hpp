@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/motion/stabilise.hpp"
+#include "hyperex/motion/still_points.hpp"
 
 namespace hyperex::motion {
 
@@ -17,14 +18,15 @@ struct TriedPose {
 };
 
 /// stabilise() for a motion whose user named no points of the skull. `still_points`: those that
-/// proposed_rigid_points() found, or empty for all landmarks. `option`: how messages call the
+/// points_to_hold_the_head() found, or empty for all landmarks. `option`: how messages call the
 /// option that names others, such as "--rigid-points".
 TriedPose try_stabilise(const Motion& motion, const std::vector<std::string>& still_points,
                         const std::string& option);
 
-/// "head pose: taken out by a, b, c, d, which keep their distances from each other, as points of
-/// the skull do": says which points were found, as the user did not name them.
-std::string still_points_sentence(const std::vector<std::string>& still_points);
+/// "the head is held by a, b, c, d, which keep still against each other; not used: e (moves by 1.3
+/// mm against them)": says which points were found, as the user did not name them. At least one
+/// name.
+std::string still_points_sentence(const StillPoints& still_points);
 
 /// "the head's pose is that of the face's landmarks, while a, b, c keep their distances from each
 /// other, as points of the skull do, and are not used": of still_points_beside_landmarks().

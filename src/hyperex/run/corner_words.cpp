@@ -58,7 +58,11 @@ std::string difference_with_budget(const Json& figure, double shown_mm, double e
 std::string difference_words(const Json& corners, double shown_mm, double exact_mm) {
   const double floor_mm = corner_number(corners, "floor_mm", 0);
   const bool unknown = corners.contains("undecided") && corners["undecided"].is_null();
-  const std::string cannot_tell = "the recording cannot tell, as its jitter is not known";
+  const bool jitter_known =
+      corners.contains("jitter_floor_mm") && corners["jitter_floor_mm"].is_number();
+  const std::string cannot_tell =
+      jitter_known ? "the recording cannot tell, as the head's motion is in its points"
+                   : "the recording cannot tell, as its jitter is not known";
   if (floor_mm < kNoFloor_mm)
     return fmt::format("{:.1f} mm{}", shown_mm, unknown ? ": " + cannot_tell : "");
   const HeldAgainst apart = held_against(shown_mm, exact_mm, floor_mm);

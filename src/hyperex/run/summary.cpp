@@ -143,8 +143,11 @@ Json summary_of(const session::FaceSession& session, const Results& r) {
   s["jaw_opening_deg"] = report.greatest_opening_deg;
   s["inverted_tets"] = report.inverted_tets;
   s["at_peak"] = metrics::json_of(session.tissue_at_peak());
-  s["head_shift_uncertainty_mm"] = r.inputs.head_shift_uncertainty_mm;
-  s["head_turn_uncertainty_deg"] = r.inputs.head_turn_uncertainty_deg;
+  const bool head_known = r.inputs.head_uncertainty_known;
+  s["head_shift_uncertainty_mm"] =
+      head_known ? Json(r.inputs.head_shift_uncertainty_mm) : Json(nullptr);
+  s["head_turn_uncertainty_deg"] =
+      head_known ? Json(r.inputs.head_turn_uncertainty_deg) : Json(nullptr);
   s["mesh_quality"] = quality_json(r.mesh, session.skin_off());
   s["symmetry"] = metrics::summary_of(r.symmetry);
   if (r.uncertainty)

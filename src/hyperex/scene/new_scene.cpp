@@ -105,7 +105,7 @@ std::string new_scene_text(const NewScene& of) {
     out += "# The first sample is taken for the face at rest.\n";
   if (!of.rigid_points.empty()) {
     out +=
-        "# These keep their distances from each other, as points of the skull do.\nrigid_points = "
+        "# These keep still against each other, as points of the skull do.\nrigid_points = "
         "[";
     for (std::size_t i = 0; i < of.rigid_points.size(); ++i)
       out += (i > 0 ? ", " : "") + toml_text(of.rigid_points[i]);

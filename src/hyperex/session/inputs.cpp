@@ -81,6 +81,7 @@ Inputs joined(const scene::Scene& scene, bool search, Files& files, Problems& pr
   append(in.notes, recording.notes);
   in.head_shift_uncertainty_mm = recording.head_shift_uncertainty_mm;
   in.head_turn_uncertainty_deg = recording.head_turn_uncertainty_deg;
+  in.head_uncertainty_known = recording.head_uncertainty_known;
   in.pose_variance = recording.pose_variance;
   in.lasts_s = recording.lasts_s;
   in.lead_s = recording.lead_s;

@@ -26,6 +26,9 @@ struct Inputs {
   simulate::AlignedMotion motion;  ///< gaps filled, without head pose, in the scan's frame
   /// Greatest over the samples, 95 % bounds (motion::StabilisedMotion).
   double head_shift_uncertainty_mm = 0, head_turn_uncertainty_deg = 0;
+  /// False where no noise is seen in the recorded points that hold the head, and none is excluded:
+  /// then the bounds above are 0 but not known.
+  bool head_uncertainty_known = true;
   /// What errors of the head's pose make, by the recording's pairs of points, without motion.gain.
   std::map<std::string, metrics::PairPoseVariance> pose_variance;
   double jitter_m = 0;  ///< of the points that S(t) takes, without motion.gain; 0: none known

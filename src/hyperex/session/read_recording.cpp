@@ -167,7 +167,11 @@ void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady
   const auto greatest = [](const std::vector<double>& v) { return *std::ranges::max_element(v); };
   in.head_shift_uncertainty_mm = 1e3 * greatest(steady.shift_uncertainty_m);
   in.head_turn_uncertainty_deg = greatest(steady.turn_uncertainty_rad) * 180 / std::numbers::pi;
-  constexpr double worth_a_note_mm = 1, unknown_mm = 3;
+  constexpr double worth_a_note_mm = 1, unknown_mm = 3, seen = 0.005;  // mm, degrees
+  // Points that the program moves are exact, and so are those of which the scene says so.
+  in.head_uncertainty_known = of_weights(scene) || scene.motion.source.embedded ||
+                              scene.output.jitter_m == 0 || in.head_shift_uncertainty_mm > seen ||
+                              in.head_turn_uncertainty_deg > seen;
   if (in.head_shift_uncertainty_mm > unknown_mm)
     in.notes.push_back(make_warning(
         "head.pose_unknown",
@@ -181,9 +185,13 @@ void note_head(const scene::Scene& scene, const motion::StabilisedMotion& steady
     in.notes.push_back(make_note(
         "head.pose_uncertain",
         fmt::format("the head's pose is uncertain by up to {:.1f} mm and {:.1f} degrees (95 %), as "
-                    "the points around it move with the expression; motion.rigid_points names "
-                    "points fixed to the skull where there are any",
-                    in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg)));
+                    "{}",
+                    in.head_shift_uncertainty_mm, in.head_turn_uncertainty_deg,
+                    scene.motion.rigid_points.empty()
+                        ? "the points around it move with the expression; motion.rigid_points "
+                          "names points fixed to the skull where there are any"
+                        : "the points of motion.rigid_points jitter or move against each other; "
+                          "more of them, or farther apart, hold it better")));
 }
 
 /// Points of the skull beside the landmarks of the face, where the scene names none. Those of a

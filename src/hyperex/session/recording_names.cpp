@@ -8,7 +8,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/motion/stabilise.hpp"
-#include "hyperex/motion/still_points.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -48,6 +48,14 @@ std::vector<std::string> doubts_of_names(const motion::Motion& motion,
   collect([&] { check_head_points(motion, rigid_points); });
   collect([&] { check_landmark_names(motion); });
   return doubts;
+}
+
+motion::StillPoints points_to_hold_the_head(const motion::Motion& recorded) {
+  try {
+    return motion::points_to_hold_the_head(cleaned_recording(recorded).motion);
+  } catch (const InputError&) {  // a check reports it
+    return motion::points_to_hold_the_head(recorded);
+  }
 }
 
 }  // namespace hyperex::session

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/still_points.hpp"
 
 namespace hyperex::session {
 
@@ -21,5 +22,9 @@ void check_landmark_names(const motion::Motion& motion);
 /// the scene will name.
 std::vector<std::string> doubts_of_names(const motion::Motion& motion,
                                          const std::vector<std::string>& rigid_points);
+
+/// The points that a new scene of this recording names in motion.rigid_points
+/// (motion::points_to_hold_the_head), its wild readings left out.
+motion::StillPoints points_to_hold_the_head(const motion::Motion& recorded);
 
 }  // namespace hyperex::session

@@ -177,12 +177,12 @@ Recordings cleaned_recordings(const VisitsFile& file) {
 
 /// One set of points for all recordings where the file names none: a pose by other points would
 /// differ by more than the expression does.
-std::vector<std::string> still_points_of(const VisitsFile& file, const Recordings& recordings) {
+motion::StillPoints still_points_of(const VisitsFile& file, const Recordings& recordings) {
   if (!file.rigid_points.empty()) return {};
   std::vector<const motion::Motion*> motions;
   for (const auto& visit : recordings)
     for (const session::CleanedRecording& recording : visit) motions.push_back(&recording.motion);
-  return motion::proposed_rigid_points(motions);
+  return motion::points_to_hold_the_head(motions);
 }
 
 }  // namespace
@@ -239,7 +239,7 @@ Comparison compare(const VisitsFile& file, std::vector<std::vector<MeasuredFace>
 Comparison compare_visits(const VisitsFile& file,
                           const std::function<void(std::size_t)>& progress) {
   const Recordings recordings = cleaned_recordings(file);
-  const std::vector<std::string> still_points = still_points_of(file, recordings);
+  const motion::StillPoints still_points = still_points_of(file, recordings);
   std::vector<std::vector<MeasuredFace>> faces;
   std::size_t done = 0;
   for (std::size_t i = 0; i < recordings.size(); ++i) {

@@ -41,14 +41,13 @@ std::string with_file_name(std::string text, const std::string& path) {
 
 /// The motion without head pose, and the pose's errors where it was taken out.
 motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
-                                      const std::vector<std::string>& still_points,
-                                      MeasuredFace& face) {
+                                      const motion::StillPoints& still_points, MeasuredFace& face) {
   motion::TriedPose tried;
   if (!visits.rigid_points.empty())
     tried.steady =
         motion::stabilise(motion, {.rigid_points = motion::own_names(motion, visits.rigid_points)});
   else
-    tried = motion::try_stabilise(motion, motion::own_names(motion, still_points),
+    tried = motion::try_stabilise(motion, motion::own_names(motion, still_points.names),
                                   "rigid_points of the visits");
   face.head_known = tried.why_not.empty();
   if (!face.head_known) {
@@ -58,21 +57,24 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
   }
   if (const auto unused = motion::still_points_beside_landmarks(tried.steady); !unused.empty())
     face.remarks.push_back(motion::unused_still_points_sentence(unused) +
-                           "; name them in rigid_points of the visits");
-  if (!still_points.empty())
+                           ", as they do not keep still in every recording");
+  if (!still_points.names.empty())
     face.remarks.push_back(motion::still_points_sentence(still_points) +
-                           ", in every recording; rigid_points of the visits names others");
+                           "; the same in every recording; rigid_points of the visits changes "
+                           "that");
   if (const auto far = session::check_steady(tried.steady.motion))
     face.remarks.push_back(with_file_name(far->text, motion.source));
   return tried.steady;
 }
 
-/// The points of the head by which it is compared between visits.
+/// The points of the head by which it is compared between visits. A band sits elsewhere on another
+/// day, landmarks do not: they lay one skull on the other where there are enough.
 std::vector<std::string> head_points(const VisitsFile& visits,
-                                     const std::vector<std::string>& still_points) {
+                                     const motion::StillPoints& still_points) {
   const std::vector<std::string>& points =
-      visits.rigid_points.empty() ? still_points : visits.rigid_points;
-  if (points.empty()) return motion::default_rigid_points();
+      visits.rigid_points.empty() ? still_points.names : visits.rigid_points;
+  if (points.empty() || (visits.rigid_points.empty() && still_points.beside_landmarks))
+    return motion::default_rigid_points();
   std::vector<std::string> names;
   for (const std::string& name : points) names.push_back(face::full_name(name));
   return names;
@@ -297,7 +299,7 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
 
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
-                     const std::vector<std::string>& still_points) {
+                     const motion::StillPoints& still_points) {
   MeasuredFace face;
   const fs::path name = motion::named(motion);
   face.file = name.filename().string();
@@ -342,7 +344,7 @@ session::CleanedRecording read_recording(const fs::path& recording, const VisitE
 
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
-                               const std::vector<std::string>& still_points) {
+                               const motion::StillPoints& still_points) {
   const motion::Motion& motion = recording.motion;
   MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points);
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/motion/still_points.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/visits/measures.hpp"
 #include "hyperex/visits/read_visits.hpp"
@@ -54,10 +55,10 @@ struct MeasuredFace {
 /// movement to measure.
 /// `first`: the first recording of the first visit, which defines the axes; null for itself.
 /// `still_points`: those that hold the head where the visits name none
-/// (motion::proposed_rigid_points of all recordings); empty: all landmarks.
+/// (motion::points_to_hold_the_head of all recordings); empty: all landmarks.
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
-                     const std::vector<std::string>& still_points = {});
+                     const motion::StillPoints& still_points = {});
 
 /// Reads a recording of a visit (motion::read_motion), cleans it (session::cleaned_recording) and
 /// checks it by itself (session::check_alone). Throws InputError.
@@ -68,6 +69,6 @@ session::CleanedRecording read_recording(const std::filesystem::path& recording,
 /// extent_doubts with the visit that they concern.
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
-                               const std::vector<std::string>& still_points);
+                               const motion::StillPoints& still_points);
 
 }  // namespace hyperex::visits

@@ -123,6 +123,13 @@ TEST_F(SymmetryTables, NothingAboveTheFloorsIsDecidedWhereNoiseIsNotKnown) {
   write_excursions_csv(file_, all.excursions);
   EXPECT_THAT(read_file(file_), HasSubstr(",2,,,,3,3,0,,,,,\n"));
   EXPECT_EQ(summary_of(all)["commissure"]["undecided"], true);
+  // No noise is seen in the points that hold the head.
+  SymmetryMeasures unseen = some();
+  set_known(unseen.excursions, {.jitter = false});
+  unseen.excursions.pairs[0].pose_floor_mm = 7e-15;
+  write_excursions_csv(file_, unseen.excursions);
+  EXPECT_THAT(read_file(file_), HasSubstr(",0.25,,2,,,,0,,,,,,,\n"));
+  EXPECT_TRUE(summary_of(unseen)["commissure"]["pose_floor_mm"].is_null());
   // The head's motion alone.
   set_known(all.excursions, {.head = false});
   add_repetition_floor(all.excursions, 0);

@@ -274,6 +274,15 @@ TEST(CornerWords, NoDifferenceIsDecidedWhereTheJitterIsNotKnown) {
                         "known\n"));
 }
 
+TEST(CornerWords, TheHeadsMotionIsNotCalledJitter) {
+  Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());
+  Json& corners = summary["symmetry"]["commissure"];
+  corners["undecided"] = nullptr;
+  corners["jitter_floor_mm"] = 0.2;
+  EXPECT_THAT(corners_line(summary),
+              HasSubstr("but the recording cannot tell, as the head's motion is in its points\n"));
+}
+
 // What rounding leaves of the pose's floor, where no point has noise.
 TEST(CornerWords, AFloorThatWouldBePrintedAsZeroIsNone) {
   Json summary = summary_of({6.0, 6.0, 6.0}, {7.0, 7.0, 7.0}, Json::array());

@@ -85,7 +85,16 @@ const meanings: Record<string, [stands: (value: number) => boolean, words: strin
   'options.support.field_kpa_per_mm': [(v) => v === 0, 'off'],
 };
 
+const headUnknown = 'not known: no noise is seen in the points that hold it';
+
+/** What null means, of keys that are shown all the same. */
+const unknowns: Record<string, string> = {
+  'head_shift_uncertainty_mm': headUnknown,
+  'head_turn_uncertainty_deg': headUnknown,
+};
+
 const meaningOf = (key: string, value: unknown): string | null => {
+  if (value === null) return unknowns[key] ?? null;
   const meaning = meanings[key];
   return meaning && typeof value === 'number' && meaning[0](value) ? meaning[1] : null;
 };
@@ -204,7 +213,7 @@ export function fillSummary(summary: Json, into: HTMLElement): void {
     const rows = wanted.flatMap(([key, name, unit = '']) => {
       const value = at(summary, key);
       used.add(key);
-      return isEmpty(value) ? [] : [{ key, name, unit, value }];
+      return isEmpty(value) && meaningOf(key, value) === null ? [] : [{ key, name, unit, value }];
     });
     return rows.length > 0 ? [table(title, rows)] : [];
   });
