@@ -42,7 +42,7 @@ function floorWords(replay: Replay, corners: Corners): string {
 }
 
 /** The cut-off of the filter that figures are of and the curve is not; 0: both are of the same path. */
-const filterHz = (replay: Replay): number =>
+export const filterHz = (replay: Replay): number =>
   (replay.symmetry?.jitter_mm ?? 0) > 0 ? (replay.summary.symmetry as { lowpass_hz?: number } | undefined)?.lowpass_hz ?? 0 : 0;
 
 /** Figures are of filtered paths, the curve is not. */
