@@ -8,6 +8,7 @@
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/read_recording.hpp"
+#include "hyperex/session/track_recording.hpp"
 #include "hyperex/visits/compare_visits.hpp"
 #include "hyperex/visits/summary.hpp"
 #include "hyperex/visits/visits_page.hpp"
@@ -17,14 +18,22 @@ namespace hyperex::studio {
 
 namespace {
 
-/// Writes the recorded points, without head pose, into the file `written`, and returns a visit that
-/// has this file. They are not aligned with the scan: that would give both visits the same face at
-/// rest.
+/// Whether hyperex visits could read the recording itself, and rest is its first sample.
+bool is_of_points_as_recorded(const scene::MotionOptions& motion) {
+  return !motion.source.file.empty() && motion.start_s == 0 && !session::rest_stretch(motion);
+}
+
+/// Writes the recorded points into the file `written`, and returns a visit that has this file.
+/// Points of a table keep their head pose, which the comparison takes out: taken out before, by
+/// other points, it would make other figures than hyperex visits. Points are not aligned with the
+/// scan: that would give both visits the same face at rest.
 visits::VisitEntry visit_of(const scene::Scene& scene, session::Inputs inputs,
                             const fs::path& written) {
   const motion::Motion recorded = session::read_motion(scene, session::Extent::full, inputs);
   motion::write_motion_csv(
-      written, session::steady_motion(scene, recorded, session::Extent::full, inputs).motion);
+      written, is_of_points_as_recorded(scene.motion)
+                   ? recorded
+                   : session::steady_motion(scene, recorded, session::Extent::full, inputs).motion);
   visits::VisitEntry visit;
   visit.label = scene::recording_file(scene.motion).filename().string();
   visit.recordings = {written};

@@ -309,8 +309,6 @@ const std::vector<NotedScene>& noted_scenes() {
       {"tissue.volume_changed", false,
        "drive.by=\"displacement\"\nmotion.gain=4\ntissue.strain=\"finite\"\ntime.end_s=0.5",
        press_the_lips},
-      {"solver.reduced_not_converged", false, "drive.by=\"displacement\"\nsolver.tolerance=1e-9",
-       press_the_lips},
       {"contact.no_equilibrium", false,
        "drive.by=\"displacement\"\nmotion.gain=5\ntissue.strain=\"finite\"\ncontact.lips=true\n"
        "mesh.layers=2\ntime.end_s=0.5",
@@ -342,6 +340,7 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"recording.size_implausible", "CheckAlone.ASizeThatNoFaceHasIsNamedWithItsUnit"},
       {"scan.turned_triangles", "InputNotes.NameAScanWhoseTrianglesAreTurned"},
       {"scan.flat", "InputNotes.NameAScanWithoutDepth"},
+      {"solver.reduced_not_converged", "ReducedError.IsAWarningWhereItMattersAndElseANote"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
       {"variant.left_out", "StudioSessionWithWrongVariants.OpensAllElseAndSaysWhatIsLeftOut"},
   };

@@ -45,6 +45,21 @@ for (const width of [1280, 1440, 1920])
     await close();
   });
 
+for (const width of [390, 1024])
+  test(`faces without room are behind an arrow at ${width} px`, async () => {
+    const { page, close } = await openPage(browser, report, { viewport: { width, height: 840 } });
+    const row = page.locator(width < 600 ? '#faces' : '#chips');
+    await page.locator('#chips').evaluate((chips) => {
+      for (let i = 0; i < 9; ++i) chips.append(Object.assign(document.createElement('button'), { textContent: `another face ${i}`, className: 'chip' }));
+    });
+    await page.waitForFunction((id) => document.getElementById(id).dataset.more === 'right', await row.getAttribute('id'));
+    assert.match(await row.evaluate((e) => getComputedStyle(e, '::after').content), /›/);
+    await row.evaluate((e) => e.scrollTo(1e6, 0));
+    await page.waitForFunction((id) => document.getElementById(id).dataset.more === 'left', await row.getAttribute('id'));
+    assert.ok((await tooWide(page)) <= 0);
+    await close();
+  });
+
 const phone = { viewport: { width: 390, height: 840 }, hasTouch: true, isMobile: true };
 
 test('a telephone shows the whole time, and that rows go on', async () => {

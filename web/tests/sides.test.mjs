@@ -197,9 +197,9 @@ test('the interval of the error budget stands in place of the floor of base', as
 test('what still moves a side of which no muscle pulls', async () => {
   const more = { unpulled_sides: ['R'], commissure_R_with_jaw_mm: 5.04 };
   const { line } = await dragged({ right: 4.1, more });
-  assert.match(line, / No muscle pulls on the right: its corner moves by no strength of its own, but by the jaw and the other side\. Fixed to the lower jaw it would go 5\.0 mm, and skin follows the jaw in part\.$/);
+  assert.match(line, / No muscle pulls on the right: its corner moves by no strength of its own, but by the jaw and the other side\. Fixed to the lower jaw it would go 5\.0 mm\. Skin follows the jaw in part\.$/);
   const turned = await dragged({ right: 4.1, more: { ...more, commissure_R_with_turned_jaw_mm: 3.16 } });
-  assert.match(turned.line, /it would go 5\.0 mm \(3\.2 mm if the jaw only turned about its joints\), and skin/);
+  assert.doesNotMatch(turned.line, /3\.2 mm/, 'one figure in a breath');
 });
 
 test('a change within its band is undecided', async () => {

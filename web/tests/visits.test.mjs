@@ -39,6 +39,15 @@ async function printed(page, name) {
 
 const long = '2026-03-01, before the second injection of the left side and twelve weeks of exercises at home';
 
+test('what all intervals come from is said once', { skip: Boolean(given) }, async () => {
+  const visits = madeUpVisits(2);
+  for (const { changes } of visits.measures) for (const change of changes) if (change) change.largest = 'repetition';
+  const { page, close } = await openVisits(visits);
+  assert.equal(await page.locator('th.part, td.part').count(), 0);
+  assert.equal(await page.locator('.all-from').textContent(), 'All intervals of the changes come mostly from repetition.');
+  await close();
+});
+
 test('the verdict is in sight where the table is scrolled', { skip: Boolean(given) }, async () => {
   const { page, close } = await openVisits(madeUpVisits(5), { viewport: { width: 768, height: 900 } });
   const [box, cell] = await Promise.all(['.table-box', 'td.verdict >> nth=0'].map((place) => page.locator(place).boundingBox()));
@@ -60,6 +69,10 @@ describe('two visits', { skip: Boolean(given) }, () => {
     assert.ok(answer.y + answer.height <= Math.min(faces.y, curves.y) && faces.y < table.y);
     assert.equal(await page.locator('#compared').count(), 0, 'there is nothing to choose');
     assert.equal(await page.title(), 'P-017, smile, 2026-03-01 to 2026-04-12');
+  });
+
+  test('the picture is said to be no picture of the person', async () => {
+    assert.match(await page.locator('#faces h2').textContent(), /average face.*not this person’s face/);
   });
 
   test('the table has values, changes and verdicts in words, right before left', async () => {

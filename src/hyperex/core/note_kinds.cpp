@@ -137,12 +137,12 @@ constexpr NoteKind kKinds[] = {
   warning("forces.found_anew", "drive.by",
     "Tissue or support was changed after a run whose forces were not held: other forces were found."),
   warning("drive.points_off", "drive.points",
-    "A driven point ends more than 0.1 mm from where it is driven. The cause is named where one can "
-    "be established."),
+    "A driven point ends more than 0.1 mm from where it is driven, and farther than the recording's "
+    "jitter moves it. The cause is named where one can be established."),
   warning("contact.no_equilibrium", "contact",
     "At finite strain no equilibrium with contact was found in some frames."),
   warning("solver.reduced_not_converged", "solver.method",
-    "The reduced model's estimated error stayed above solver.tolerance."),
+    "The reduced model's estimated error stayed above solver.tolerance, and is 0.05 mm or more."),
   warning("lips.pass_through", "contact.lips",
     "The lips pass through each other by more than 0.5 mm in some frame."),
   warning("tissue.inverted", "tissue.strain",
@@ -247,6 +247,11 @@ constexpr NoteKind kKinds[] = {
     "Triangles of the simulated skin under which no layer fits were removed."),
   note("mesh.layer_thinned", "mesh",
     "The layer of tissue was turned or thinned where it would have folded."),
+  note("solver.reduced_error_small", "solver.method",
+    "The reduced model's estimated error stayed above solver.tolerance, but is below 0.05 mm."),
+  note("drive.points_off_by_jitter", "drive.points",
+    "Driven points end more than 0.1 mm from where they are driven, but no farther than the "
+    "recording's jitter moves them."),
   note("tissue.few_inverted", "",
     "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
   note("tissue.large_strain", "tissue.strain",

@@ -37,7 +37,8 @@ Eigen::VectorXf inside_border(const TriMesh& skin, Eigen::VectorXf map_mm,
 
 render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& whole_map_mm,
                              const metrics::Asymmetry& asymmetry, const io::Landmarks& landmarks,
-                             const std::string& title, const std::string& note) {
+                             const std::string& title, const std::string& note,
+                             const BackingSurfaces* behind) {
   // A smaller range of colours would show noise and errors of the mesh on a symmetric face.
   constexpr double least_top_mm = 5;
   // A few vertices at a torn or cut place must not set the scale.
@@ -66,7 +67,10 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& whole_
   const double aspect = static_cast<double>(size.width_px) / size.height_px;
   Vec3 from_right = render::three_quarter_view();
   from_right.x() *= -1;
-  render::ContactSheet sheet{.title = title, .note = note, .columns = 3};
+  render::ContactSheet sheet{
+      .title = title + " (both sides compared, so it does not show which one is weak)",
+      .note = note,
+      .columns = 3};
   const std::array views{
       std::pair{from_right, "right side"},
       std::pair{render::front_view(), "front; grey: no counterpart, or at the edge of the skin"},
@@ -76,7 +80,8 @@ render::Image draw_asymmetry(const TriMesh& moved, const Eigen::VectorXf& whole_
     const auto& [view, caption] = views[i];
     const render::Camera camera =
         render::framing(framed, scan_from_face * view, aspect, scan_from_face.col(1));
-    sheet.pictures[i] = {render::render({surface}, camera, size), caption,
+    const std::vector<render::Surface> all = behind ? behind->with(surface) : std::vector{surface};
+    sheet.pictures[i] = {render::render(all, camera, size), caption,
                          render::side_marks(camera, scan_from_face.col(0))};
   });
   float most = 0;

@@ -156,18 +156,13 @@ std::string change_words(const CornerChange& c) {
   return way + moved_words(by, held.own, c.weaker) + band + cannot_tell + hidden;
 }
 
-/// Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not
-/// known.
+/// Where the jaw alone would carry the corner, two sentences; empty where it does not move, or is
+/// not known. That of a jaw which only turns is in summary.json.
 std::string jaw_sentence(const Json& variant, const std::string& side) {
-  const std::string corner = "commissure_" + side;
-  const double jaw_mm = corner_number(variant, corner + "_with_jaw_mm", 0),
-               turned_mm = corner_number(variant, corner + "_with_turned_jaw_mm", std::nan(""));
+  const double jaw_mm = corner_number(variant, "commissure_" + side + "_with_jaw_mm", 0);
   if (!(jaw_mm >= kSame_mm)) return "";
-  return fmt::format(
-      "; fixed to the lower jaw it would go {:.1f} mm{}, and skin follows the jaw in part", jaw_mm,
-      std::isnan(turned_mm)
-          ? ""
-          : fmt::format(" ({:.1f} mm if the jaw only turned about its joints)", turned_mm));
+  return fmt::format(". Fixed to the lower jaw it would go {:.1f} mm. Skin follows the jaw in part",
+                     jaw_mm);
 }
 
 /// Why a corner on a side of which no muscle pulls still moves, a line for each such side.

@@ -190,8 +190,9 @@ render::Image draw_muscles(const tissue::TissueMesh& mesh, const io::Landmarks& 
   sheet.title = "Muscles";
   sheet.note = fmt::format(
       "from origin (disc; of a ring its middle) to insertion; sheets end along the fold; "
-      "colour: branch of the facial nerve; numbers and breadth: activation at {:.2f} s, "
-      "pale where its 95 % interval holds 0; right and left are the subject's own",
+      "colour: branch of the facial nerve; numbers and breadth: activation at {:.3f} s, "
+      "where the muscles are most active; pale where its 95 % interval holds 0; right and left are "
+      "the subject's own",
       peak.time_s());
   sheet.columns = 4;
   sheet.pictures.resize(views.size());

@@ -40,6 +40,23 @@ Eigen::VectorXf lengths_mm(const PointsF& d) {
   return (1e3 * d.cast<double>().rowwise().norm()).cast<float>();
 }
 
+/// The map at the peak in the face's frame, in which teeth and the mouth's cavity are.
+void draw_map(const Results& r, const TriMesh& skin, const Eigen::VectorXf& map_mm,
+              const std::string& note, const std::filesystem::path& file) {
+  const Performance& p = r.simulation.performance;
+  const auto peak = std::size_t(p.peak_frame);
+  const face::FaceFrame frame = face::face_frame(r.inputs.landmarks);
+  const TriMesh local{frame.local_points(skin.points), skin.triangles};
+  io::Landmarks landmarks;
+  for (const auto& [name, place] : r.inputs.landmarks) landmarks[name] = frame.local(place);
+  const report::FaceBacking backing =
+      backing_in_frame(p.skin_rest, r.inputs.landmarks, r.teeth, frame);
+  const BackingSurfaces behind(backing, frame, local.points, r.teeth, p.jaw_now_from_rest[peak],
+                               p.upper_teeth_now_from_rest, gaze_in(p, peak));
+  render::write_png(file, draw_asymmetry(local, map_mm, *r.symmetry.map, landmarks,
+                                         "Asymmetry of the motion", note, &behind));
+}
+
 /// The skin at the peak in the scan's unit; its own vertices first, in their order.
 void write_peak(const Results& r, const std::filesystem::path& directory) {
   const Performance& p = r.simulation.performance;
@@ -73,9 +90,7 @@ void write_peak(const Results& r, const std::filesystem::path& directory) {
   if (asymmetry.mesh_floor)
     note += fmt::format("; by the mesh and the face's own shape alone {:.2f} and {:.2f} mm",
                         asymmetry.mesh_floor->face_rms_mm, asymmetry.mesh_floor->mouth_rms_mm);
-  render::write_png(
-      directory / "asymmetry.png",
-      draw_asymmetry(skin, map_mm, asymmetry, r.inputs.landmarks, "Asymmetry of the motion", note));
+  draw_map(r, skin, map_mm, note, directory / "asymmetry.png");
 }
 
 double longest_mm(const PointsF& d) {

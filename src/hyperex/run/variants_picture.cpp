@@ -38,14 +38,6 @@ double draw_legend(render::Canvas& canvas, double left, double right, double y,
   return at + line_px - y;
 }
 
-/// The frame in which the variants, taken together, lie farthest from base.
-std::size_t frame_that_differs_most(const std::vector<metrics::VariantComparison>& compared) {
-  std::vector<double> sum(compared.front().difference.frame_max_m.size(), 0);
-  for (const auto& one : compared)
-    for (std::size_t f = 0; f < sum.size(); ++f) sum[f] += one.difference.frame_max_m[f];
-  return std::size_t(std::max_element(sum.begin(), sum.end()) - sum.begin());
-}
-
 /// The end of the colour bar, mm, and whether larger distances take its last colour.
 struct ColourTop {
   double mm = 0;
@@ -79,6 +71,19 @@ Points shown_points(const FaceBox& box, const Points& rest, const std::vector<Tr
 
 }  // namespace
 
+MostDifferent differs_most(const std::vector<metrics::VariantComparison>& compared) {
+  MostDifferent most;
+  double most_m = -1;
+  for (std::size_t i = 0; i < compared.size(); ++i) {
+    const auto& of_frame = compared[i].difference.frame_max_m;
+    const auto farthest = std::max_element(of_frame.begin(), of_frame.end());
+    if (farthest == of_frame.end() || *farthest <= most_m) continue;
+    most_m = *farthest;
+    most = {i, std::size_t(farthest - of_frame.begin())};
+  }
+  return most;
+}
+
 std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect) {
   const Vec3 left = render::three_quarter_view(), right(-left.x(), left.y(), left.z());
   std::array cameras{render::framing(framed, right, aspect),
@@ -94,7 +99,8 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
                    const std::vector<VariantRun>& runs, const std::filesystem::path& file) {
   const face::FaceFrame frame = face::face_frame(base.inputs.landmarks);
   const simulate::Performance& p = base.simulation.performance;
-  const std::size_t shown = frame_that_differs_most(compared);
+  const MostDifferent most = differs_most(compared);
+  const std::size_t shown = most.frame;
   const auto skin_then = [&](const simulate::Performance& of) {
     const PointsF& d = of.skin_displacement_m[shown];
     return TriMesh{frame.local_points(p.skin_rest.points + d.cast<double>()),
@@ -108,9 +114,9 @@ void draw_variants(const Results& base, const std::vector<metrics::VariantCompar
   render::ContactSheet sheet;
   sheet.title = base.scene.title.empty() ? "Variants" : base.scene.title + ": variants";
   sheet.note = fmt::format(
-      "the faces at {:.2f} s, where they differ most; colour: greatest distance over "
-      "time from the unchanged face; R and L: the subject's own sides",
-      p.frame_time_s[shown]);
+      "the faces at {:.3f} s, where {} differs most; colour: greatest distance over time from the "
+      "unchanged face; R and L: the subject's own sides",
+      p.frame_time_s[shown], compared[most.variant].name);
   sheet.columns = int(runs.size()) + 1;
   sheet.bar = render::ColourBar{{0, top.mm}, "distance (mm)", top.capped};
   const report::FaceBacking backing =

@@ -17,7 +17,14 @@ using session::VariantRun;
 /// variant may change either side. Each shows all the points (face frame), at the same scale.
 std::array<render::Camera, 3> cameras_on(const Points& framed, double aspect);
 
-/// The face of base and of each variant in the frame in which they differ most, seen by
+/// The variant that is farthest from base in any frame, and the first frame in which it is: that
+/// which the report names. One comparison or more.
+struct MostDifferent {
+  std::size_t variant = 0, frame = 0;
+};
+MostDifferent differs_most(const std::vector<metrics::VariantComparison>& compared);
+
+/// The face of base and of each variant in the frame of differs_most(), seen by
 /// cameras_on() and coloured by the greatest distance from base over time. The scale of the colours
 /// is chosen such that small differences remain visible beside a large one. One comparison per
 /// variant.

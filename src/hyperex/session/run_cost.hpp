@@ -24,7 +24,8 @@ struct RunCost {
   double disk_bytes = 0, frames_bytes = 0;    ///< in all; of them frames/, for ParaView
   double memory_bytes = 0, motion_bytes = 0;  ///< in all; of them the motion of all faces
   /// On two idle processors, correct to a factor of about two, and the part of the variants; 0:
-  /// unknown, as at finite strain. Without contact.
+  /// unknown, as at finite strain. Without contact. Noise of the driven points counts where the
+  /// whole recording was read.
   double seconds = 0, variants_seconds = 0;
   double budget_seconds = 0;   ///< part of output.error_budget in `seconds`; 0: none
   double contact_seconds = 0;  ///< besides, where something touches in every frame; 0: no contact

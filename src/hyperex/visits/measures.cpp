@@ -102,7 +102,7 @@ void add_corners(std::vector<Measure>& all) {
            [](const FaceState& face, Side side) {
              return corner(face, side).dot(face.first_direction[std::size_t(side)]);
            });
-  add_pair(all, "corner_follows", "Corner of the mouth: along the other side's first way", kPercent,
+  add_pair(all, "corner_follows", "Corner: share of the other's way at first visit", kPercent,
            follows);
   add_single(all, "corner_difference", "Corners of the mouth: excursion R less L",
              [](const FaceState& face) {
@@ -113,8 +113,8 @@ void add_corners(std::vector<Measure>& all) {
 std::vector<Measure> all_measures() {
   std::vector<Measure> all;
   add_corners(all);
-  all.push_back({"stretch_difference", "Stretch about the mouth: R less L (S is ln of its size)",
-                 "", kPercent, [](const FaceState& face) {
+  all.push_back({"stretch_difference", "Stretch about the mouth: right less left", "", kPercent,
+                 [](const FaceState& face) {
                    return 100 * (stretch(face, Side::right) - stretch(face, Side::left));
                  }});
   add_single(all, "lip_opening", "Lips: opening at the peak", [](const FaceState& face) {

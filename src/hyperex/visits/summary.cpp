@@ -34,15 +34,18 @@ std::string with_side(const std::string& side, const std::string& part) {
   return char(std::toupper(text.front())) + text.substr(1);
 }
 
-std::string interval_words(const Interval& interval, const Headline& words, int digits) {
+/// `unit`: " mm", or empty where it stands before the interval.
+std::string interval_words(const Interval& interval, const Headline& words, int digits,
+                           const std::string& unit) {
   const auto bound = [&](double value) {
-    return fmt::format("{} {}", figure(std::abs(value)), value < 0 ? words.less : words.more);
+    return fmt::format("{}{} {}", figure(std::abs(value)), unit,
+                       value < 0 ? words.less : words.more);
   };
   if (interval.low < 0 && interval.high > 0)
     return fmt::format(" (95 %: {} to {})", bound(interval.low), bound(interval.high));
   const double a = std::abs(interval.low), b = std::abs(interval.high);
-  return fmt::format(" (95 %: {} to {})", figure(std::min(a, b), digits),
-                     figure(std::max(a, b), digits));
+  return fmt::format(" (95 %: {} to {}{})", figure(std::min(a, b), digits),
+                     figure(std::max(a, b), digits), unit);
 }
 
 /// " on 2026-03-01", but " (before injection)".
@@ -53,10 +56,14 @@ std::string at_visit(const std::string& label) {
 
 std::string verdict(const Change& change, const Headline& words, const std::string& unit) {
   const int digits = digits_of(change);
+  const std::string size = figure(std::abs(change.value), digits);
+  const bool nothing = size.find_first_not_of("0.") == std::string::npos;
+  const std::string interval =
+      change.all ? interval_words(*change.all, words, digits, nothing ? " " + unit : "") : "";
   const std::string amount =
-      fmt::format("{} {} {}{}", figure(std::abs(change.value), digits), unit,
-                  change.value < 0 ? words.less : words.more,
-                  change.all ? interval_words(*change.all, words, digits) : "");
+      nothing ? "no change" + interval
+              : fmt::format("{} {} {}{}", size, unit, change.value < 0 ? words.less : words.more,
+                            interval);
   if (change.beyond == Beyond::yes) return amount + ", beyond what measurement and repetition make";
   if (change.beyond == Beyond::no) {
     if (change.all) return amount + ", within what measurement and repetition make";

@@ -26,5 +26,24 @@ TEST(AsymmetryPicture, HasNoColourWhereTheSkinEnds) {
   EXPECT_NE(drawn(0, 4), plain);
 }
 
+/// The embedded face has holes at the eyes or the mouth.
+TEST(AsymmetryPicture, ShowsWhatLiesBehindTheMouth) {
+  anatomy::EmbeddedFace face = anatomy::embedded_face();
+  const face::FaceFrame frame = face::face_frame(face.landmarks);
+  const Eigen::Index count = face.mesh.points.rows();
+  const metrics::Asymmetry map = metrics::asymmetry_of(
+      metrics::rest_asymmetry(face.mesh, face.landmarks), {PointsF::Zero(count, 3)});
+  const report::FaceBacking backing = backing_in_frame(face.mesh, face.landmarks, nullptr, frame);
+  ASSERT_FALSE(backing.openings.empty());
+  const TriMesh local{frame.local_points(face.mesh.points), face.mesh.triangles};
+  io::Landmarks landmarks;
+  for (const auto& [name, place] : face.landmarks) landmarks[name] = frame.local(place);
+  const BackingSurfaces behind(backing, frame, local.points, nullptr,
+                               Eigen::Isometry3d::Identity());
+  const Eigen::VectorXf mm = Eigen::VectorXf::Zero(count);
+  EXPECT_NE(draw_asymmetry(local, mm, map, landmarks, "", "", &behind).rgb,
+            draw_asymmetry(local, mm, map, landmarks, "", "").rgb);
+}
+
 }  // namespace
 }  // namespace hyperex::run

@@ -136,13 +136,10 @@ TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
   EXPECT_THAT(
       variant_lines(summary),
       HasSubstr("\n    no muscle pulls on the right: its corner moves by no strength of its "
-                "own, but by the jaw and the other side; "
-                "fixed to the lower jaw it would go 5.0 mm, and skin follows the jaw in "
-                "part\n"));
+                "own, but by the jaw and the other side. "
+                "Fixed to the lower jaw it would go 5.0 mm. Skin follows the jaw in part\n"));
   changed["commissure_R_with_turned_jaw_mm"] = 3.16;
-  EXPECT_THAT(
-      variant_lines(summary),
-      HasSubstr("it would go 5.0 mm (3.2 mm if the jaw only turned about its joints), and"));
+  EXPECT_THAT(variant_lines(summary), Not(HasSubstr("3.2 mm"))) << "one figure in a breath";
   for (const Json& unknown : {Json(), Json(std::nan(""))}) {
     changed["commissure_R_with_jaw_mm"] = unknown;
     EXPECT_THAT(variant_lines(summary), HasSubstr("by the jaw and the other side\n"));

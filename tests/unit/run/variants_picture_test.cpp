@@ -22,6 +22,19 @@ class VariantsPicture : public testing::Test {
   const std::array<render::Camera, 3> cameras_ = cameras_on(shown_, double(kWidth_px) / kHeight_px);
 };
 
+/// The first variant is farthest at 2, and both together would be at 1.
+TEST(VariantsPictureFrame, IsThatOfTheVariantThatDiffersMost) {
+  std::vector<metrics::VariantComparison> compared(2);
+  compared[0].difference.frame_max_m = {0, 0.009, 0.010, 0.010};
+  compared[1].difference.frame_max_m = {0, 0.004, 0.001, 0};
+  const MostDifferent most = differs_most(compared);
+  EXPECT_EQ(most.variant, 0u);
+  EXPECT_EQ(most.frame, 2u);
+  compared[1].difference.frame_max_m[1] = 0.011;
+  EXPECT_EQ(differs_most(compared).variant, 1u);
+  EXPECT_EQ(differs_most(compared).frame, 1u);
+}
+
 TEST_F(VariantsPicture, HoldsTheForeheadInEachView) {
   double highest_m = -1, brow_m = frame_.local(face_.landmarks.at(face::ibug(19))).y();
   for (Eigen::Index v = 0; v < shown_.rows(); ++v) highest_m = std::max(highest_m, shown_(v, 1));

@@ -135,6 +135,54 @@ TEST(RunCost, TimesAreWithinAFactorOfTwoOfMeasuredOnes) {
   }
 }
 
+/// The embedded face with a recording at 30 Hz whose points move by up to 10 mm.
+Inputs noisy(int points, int samples, double jitter_m) {
+  Inputs inputs = face_alone();
+  motion::Motion& motion = inputs.motion.motion;
+  for (int p = 0; p < points; ++p) {
+    motion.names.push_back("point_" + std::to_string(p));
+    inputs.driven.push_back(motion.names.back());
+  }
+  for (int k = 0; k < samples; ++k) {
+    motion.time_s.push_back(k / 30.0);
+    motion.positions.push_back(
+        Points::Constant(points, 3, k == samples / 2 ? 0.010 / std::sqrt(3.0) : 0));
+  }
+  inputs.jitter_m = jitter_m;
+  return inputs;
+}
+
+/// Times of the processors of runs without pages in a mesh of 5973 nodes.
+TEST(RunCost, TimesOfNoisyRecordingsAreWithinAFactorOfTwoOfMeasuredOnes) {
+  using simulate::DriveBy;
+  struct Measured {
+    const char* what;
+    int points, samples;
+    double jitter_mm;
+    DriveBy by;
+    std::size_t variants;
+    double processor_s;
+  };
+  scene::Scene scene = embedded();
+  scene.mesh.element_size_m = 0.003;
+  scene.output.vtu = scene.output.glb = scene.output.report = false;
+  scene.origins["drive.by"] = {};
+  for (const Measured& run :
+       {Measured{"7 points", 7, 94, 0.2, DriveBy::muscles, 0, 6.9},
+        {"34 points", 34, 94, 0.2, DriveBy::muscles, 0, 27.3},
+        {"34 points and four variants", 34, 94, 0.2, DriveBy::muscles, 4, 116},
+        {"34 points with less noise", 34, 94, 0.03, DriveBy::muscles, 0, 7.7},
+        {"34 points for three times as long", 34, 282, 0.22, DriveBy::muscles, 0, 33.6},
+        {"34 points by displacement", 34, 94, 0.2, DriveBy::displacement, 0, 3.3}}) {
+    scene.drive.by = run.by;
+    scene.variants.resize(run.variants);
+    const Inputs inputs = noisy(run.points, run.samples, 1e-3 * run.jitter_mm);
+    const double ratio = expected_cost(scene, inputs, Extent::full)->seconds / run.processor_s;
+    EXPECT_GT(ratio, 0.5) << run.what;
+    EXPECT_LT(ratio, 2) << run.what;
+  }
+}
+
 TEST(RunCost, OfContactIsWhatItTakesAtMost) {
   scene::Scene scene = embedded();
   const Inputs inputs = read_inputs(scene);

@@ -12,11 +12,13 @@
 
 namespace hyperex::simulate {
 namespace {
+using hyperex::test::is_note;
 using hyperex::test::is_warning;
 using hyperex::test::says;
 using testing::AllOf;
 using testing::Contains;
 using testing::HasSubstr;
+using testing::Not;
 
 /// 2 mm off, and nothing that explains it.
 FarthestPoint unexplained() {
@@ -156,6 +158,32 @@ TEST(PointsOff, NamesTheFarthestAndCountsTheOthers) {
             "(corner of the mouth, left), ibug68_48 (corner of the mouth, right)");
   EXPECT_THAT(points_off_text(names, {3e-4, 3e-3, 2e-4, 1e-5}, 1e-4), HasSubstr("ibug68_8 ("))
       << "all where the distance matters";
+}
+
+TEST(PointsOff, AreWithinWhatJitterMakesOrNot) {
+  EXPECT_TRUE(is_within_jitter(0.21e-3, 0.2e-3));
+  EXPECT_FALSE(is_within_jitter(0.21e-3, 0.07e-3));
+  EXPECT_FALSE(is_within_jitter(0.21e-3, 0));
+  EXPECT_FALSE(is_within_jitter(0.21e-3, std::nan(""))) << "a jitter that is not known";
+  EXPECT_THAT(jitter_text(0.2e-3), HasSubstr("jitter of 0.20 mm alone"));
+  EXPECT_THAT(jitter_text(0.2e-3), HasSubstr("up to 0.56 mm (95 %)"));
+}
+
+/// Points that shake by 4 mm from sample to sample are met to some 0.5 mm between the steps.
+TEST_F(FarthestPointOfAFace, IsNoWarningWhereJitterExplainsIt) {
+  const auto mesh = std::make_shared<const tissue::TissueMesh>(face_.mesh);
+  SimulationOptions options;
+  options.time.step_s = 0.01;
+  const auto notes_of_samples = [&](int samples) {
+    AlignedMotion shaking = test::mouth_opening(landmarks_, 10, samples, 30);
+    for (std::size_t k = 1; k < shaking.motion.positions.size(); ++k)
+      shaking.motion.positions[k].array() += k % 2 == 0 ? 0.004 : -0.004;
+    return Simulator(mesh, landmarks_, shaking, options).run().report.notes;
+  };
+  EXPECT_THAT(notes_of_samples(25), AllOf(Contains(is_note("drive.points_off_by_jitter")),
+                                          Not(Contains(is_warning("drive.points_off")))));
+  EXPECT_THAT(notes_of_samples(15), Contains(is_warning("drive.points_off")))
+      << "too short to measure its jitter";
 }
 
 TEST_F(FarthestPointOfAFace, IsExplainedInTheNoteOfARun) {

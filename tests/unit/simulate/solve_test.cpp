@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/run/solve.hpp"
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "hyperex/core/progress.hpp"
@@ -8,6 +9,7 @@
 #include "hyperex/simulate/drive/input_shapes.hpp"
 #include "simulate/small_face.hpp"
 #include "support/layer.hpp"
+#include "support/note_matchers.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -69,6 +71,29 @@ class SolveFace : public testing::Test {
   fem::Drive drive_;
   std::vector<double> steps_;
 };
+
+/// 0.03 mm of 10 mm is not worth a warning, the same share of 20 mm is.
+TEST(ReducedError, IsAWarningWhereItMattersAndElseANote) {
+  Solution stopped;
+  stopped.basis_size = 405;
+  stopped.estimated_error = 3.1e-3;
+  stopped.greatest_displacement_m = 0.010;
+  stopped.converged = false;
+  using namespace hyperex::test;
+  using testing::AllOf;
+  const auto named =
+      AllOf(says("405 vectors"), says("3.1e-03"), says("solver.tolerance asks for 0.001"),
+            says("solver.method = \"direct\""), is_about("solver.method"));
+  EXPECT_THAT(note_on_reduced_error(stopped, 1e-3),
+              testing::Optional(AllOf(is_note("solver.reduced_error_small"), named,
+                                      says("0.031 mm, too little to matter"))));
+  stopped.greatest_displacement_m = 0.020;
+  EXPECT_THAT(note_on_reduced_error(stopped, 1e-3),
+              testing::Optional(
+                  AllOf(is_warning("solver.reduced_not_converged"), named, says("is 0.062 mm: "))));
+  stopped.converged = true;
+  EXPECT_EQ(note_on_reduced_error(stopped, 1e-3), std::nullopt);
+}
 
 TEST_F(SolveFace, ReducedAgreesWithDirectToItsTolerance) {
   const Solution full = direct();

@@ -8,6 +8,8 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
 #include "hyperex/motion/read_motion.hpp"
+#include "hyperex/visits/compare_visits.hpp"
+#include "hyperex/visits/summary.hpp"
 #include "studio.hpp"
 #include "support/zip_writer.hpp"
 #include "unit/studio/session_fixture.hpp"
@@ -400,6 +402,34 @@ TEST_F(StudioSession, VisitsKeepTheFaceAtRest) {
   // The measure of the page's data: {"changes":[null,{..."value":-4.0}],"key":"corner_height",...
   const auto begins = page.rfind("\"changes\"", at);
   EXPECT_THAT(page.substr(begins, at - begins), testing::ContainsRegex("\"value\":-[34]\\."));
+}
+
+/// A head pose that is taken out before the comparison takes it out makes other figures.
+TEST_F(StudioSession, VisitsSayWhatTheCommandSaysOfTheSameFiles) {
+  open();
+  visits::VisitsFile file;
+  file.expression = *visits::expression_named("mouth open");
+  for (const auto& [name, opening_deg] : {std::pair{"visit1.csv", 12.0}, {"visit2.csv", 8.0}}) {
+    motion::MouthOpeningOptions options;
+    options.peak_deg = opening_deg;
+    visits::VisitEntry visit;
+    visit.label = name;
+    visit.recordings = {folder_.path() / "own" / "uploads" / name};
+    motion::write_motion_csv(
+        visit.recordings.front(),
+        motion::embedded_mouth_opening(anatomy::embedded_face().landmarks, options));
+    EXPECT_FALSE(ask("open", {{"what", "current"}, {"recording", name}}).contains("error"));
+    file.visits.push_back(visit);
+  }
+  const json answer = ask("compare_visits", {{"expression", "mouth open"}, {"name", "change"}});
+  ASSERT_FALSE(answer.contains("error")) << answer;
+  EXPECT_EQ(answer["sentences"].get<std::vector<std::string>>(),
+            visits::summary(visits::compare_visits(file)));
+  const motion::Motion recorded = motion::read_motion(file.visits[0].recordings[0]),
+                       compared = motion::read_motion(folder_.path() / "own" / "visit_1.csv");
+  ASSERT_EQ(compared.positions.size(), recorded.positions.size());
+  for (std::size_t k = 0; k < recorded.positions.size(); ++k)
+    EXPECT_LT((compared.positions[k] - recorded.positions[k]).cwiseAbs().maxCoeff(), 1e-9) << k;
 }
 
 TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {

@@ -127,7 +127,7 @@ TEST(CompareVisits, AnIntervalAroundNoChangeHasAWordAtBothBounds) {
   change = {.value = -4.1, .all = Interval{-5.9, -2.3}, .beyond = Beyond::yes, .largest = ""};
   EXPECT_THAT(summary(two)[0], HasSubstr("4.1 mm less (95 %: 2.3 to 5.9), beyond"));
   change = {.value = -0.0484, .all = Interval{-1.0, 0.9}, .beyond = Beyond::no, .largest = ""};
-  EXPECT_THAT(summary(two)[0], HasSubstr("0.0 mm less"));
+  EXPECT_THAT(summary(two)[0], HasSubstr("no change (95 %: 1.0 mm less to 0.9 mm more), within"));
 }
 
 TEST(CompareVisits, FacesOfDifferentScalesAreNotCompared) {

@@ -7,6 +7,7 @@ import { pageSource } from './data_source';
 import { frameAt } from './face/deform';
 import { at, element, startPage } from '../page/dom';
 import { number } from '../page/format';
+import { markWhatGoesOn } from '../page/scrolled_row';
 import { wireKeys } from './keys';
 import { Playback } from './playback';
 import { Plots } from './curves/plots';
@@ -54,6 +55,7 @@ function start(): void {
   const stage = new Stage(replay, shown);
   const plots = new Plots(replay, shown, at('plots'), (t) => playback.seek(t));
   fillTables(replay, shown, at('tables'));
+  for (const row of ['chips', 'faces', 'view-tools']) markWhatGoesOn(at(row));
   wirePrinting(stage, plots, at('canvas-host').closest('main')!);
   const showTransport = wireTransport(source, playback, shown);
   const show = () => {

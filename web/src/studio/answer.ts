@@ -4,6 +4,7 @@
 import { button, element } from '../page/dom';
 import { sides, type Side } from '../page/side_words';
 import { apartAgainstFloor, apartMm, bothRecorded, cornerChange, differenceWords, farthestMm, mm, sameMm, valueAt, type Corners } from '../replay/corners';
+import { filterHz } from '../replay/curves/corner_card';
 import { changeLine } from './change_line';
 import type { StudioState } from './studio_state';
 import { words } from './words';
@@ -62,10 +63,13 @@ export class Answer {
   /** At the time shown; `live`: of a face whose slider is pulled. */
   mark(live: { face: number; mm: Record<Side, number> } | null): void {
     const { own, state } = this;
+    const hz = own ? filterHz(state.source.replay) : 0;
     for (const side of sides) {
       const value = live?.face === state.edited ? live.mm[side] : own ? valueAt(own.timeS, own[side], state.playback.timeS) : null;
-      const text = value === null ? '' : words.nowIs(mm(value));
-      if (this.now[side].textContent !== text) this.now[side].textContent = text;
+      const text = value === null ? '' : words.nowIs(mm(value), hz > 0);
+      if (this.now[side].textContent === text) continue;
+      this.now[side].textContent = text;
+      this.now[side].title = words.nowHint(hz);
     }
   }
 }

@@ -6,7 +6,7 @@ import { button, element } from '../page/dom';
 import { faceColour } from '../page/face_colour';
 import { sides, type Side } from '../page/side_words';
 import { apartAgainstFloor, changeBandMm, cornerChange, cornersOf, farthestMm, jitterUnknown, mm, sameMm, valueAt, type Corners } from '../replay/corners';
-import { cornerCurves } from '../replay/curves/corner_card';
+import { cornerCurves, filterHz } from '../replay/curves/corner_card';
 import { symmetryCurves } from '../replay/curves/symmetry_charts';
 import { disagreement, plainFigures } from '../replay/curves/symmetry_words';
 import { chooseFace } from '../replay/face/face_chooser';
@@ -85,11 +85,14 @@ export class FiguresPanel {
     const { timeS } = this.state.playback;
     this.answer.mark(this.live);
     for (const { chart } of this.plots) chart.mark(timeS);
+    const hz = filterHz(this.state.source.replay);
     for (const { cells, corners, face } of this.now)
       for (const side of sides) {
         const value = this.live?.face === face ? this.live.mm[side] : valueAt(corners.timeS, corners[side], timeS);
-        const text = value === null ? '' : words.nowIs(mm(value));
-        if (cells[side].textContent !== text) cells[side].textContent = text;
+        const text = value === null ? '' : words.nowIs(mm(value), hz > 0);
+        if (cells[side].textContent === text) continue;
+        cells[side].textContent = text;
+        cells[side].title = words.nowHint(hz);
       }
   }
 

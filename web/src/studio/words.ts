@@ -264,7 +264,8 @@ const en = {
   figures: 'Figures',
   cornersTitle: 'Corners of the mouth, farthest from rest',
   face: 'Face',
-  nowIs: (value: string) => `now ${value}`,
+  nowIs: (value: string, unfiltered: boolean) => `now ${value}${unfiltered ? ', unfiltered' : ''}`,
+  nowHint: (hz: number) => (hz > 0 ? `The distance now is that of the path as it is. The farthest one is of the path without what is faster than ${hz} Hz, by which jitter would count; so it may be the smaller of the two.` : ''),
   againstBase: (by: string, more: boolean) => `${by} ${more ? 'more' : 'less'} than base`,
   asBase: 'as base',
   dragged: 'dragged farther',
@@ -350,7 +351,7 @@ const en = {
   landmarkMirrorHint: 'Moves the same point of the other side to the mirror image of this one',
   landmarksLoad: 'Load…',
   landmarksLoadHint: 'Points of a file: JSON of hyperex, or .mrk.json of 3D Slicer',
-  landmarkCount: (count: number) => `${count} points lie on the scan.`,
+  landmarkCount: (count: number) => `${count} places are marked on the scan. Elsewhere names are counted: some places have two names, and those of the nasolabial folds are placed by a rule.`,
 
   // Live.
   live: 'Live',

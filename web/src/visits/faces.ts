@@ -28,7 +28,9 @@ export class Faces {
     this.row.append(...this.faces);
     this.row.setAttribute('role', 'group');
     this.row.setAttribute('aria-label', 'Faces at the peak, in the order of the visits');
-    host.append(element('h2', `At the peak of the ${expression}`), this.row);
+    const title = element('h2', `At the peak of the ${expression} `);
+    title.append(element('small', 'The average face, moved as the recorded points are. It is not this person’s face.'));
+    host.append(title, this.row);
     choice.onChange(() => this.show());
     // Only what is scrolled is reached by the keyboard.
     new ResizeObserver(() => {

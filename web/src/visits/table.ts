@@ -63,13 +63,19 @@ function changeCells(change: Change | null, { unit, values }: Measure, visit: nu
   return [over, element('td', figure.measured, 'measured'), verdict, element('td', partWords[change.largest] ?? change.largest, 'part')];
 }
 
+/** The part that all intervals of a visit's changes mostly come from; null: they differ, or there is one alone. */
+function onlyPart(measures: Measure[], visit: number): Part | null {
+  const parts = measures.flatMap(({ changes }) => changes[visit]?.largest ?? []);
+  return parts.length > 1 && parts.every((part) => part === parts[0]) ? parts[0] : null;
+}
+
 /** As in the style sheet. */
 const narrow = window.matchMedia('(max-width: 600px)');
 
 /** A telephone shows the answer first: the change and its verdict, then the values. One visit has no changes. */
 function inOrder(values: HTMLElement[], changes: HTMLElement[]): HTMLElement[] {
-  const [change, measured, verdict, part] = changes;
-  return narrow.matches && change ? [change, verdict, ...values, measured, part] : [...values, ...changes];
+  const [change, measured, verdict, ...part] = changes;
+  return narrow.matches && change ? [change, verdict, ...values, measured, ...part] : [...values, ...changes];
 }
 
 export class MeasureTable {
@@ -105,6 +111,10 @@ export class MeasureTable {
     return length > 3 && visit > 0 && visit !== this.choice.visit ? 'set-aside' : '';
   }
 
+  private onlyPart(): Part | null {
+    return onlyPart(this.manifest.measures, this.choice.visit);
+  }
+
   private heads(): HTMLTableRowElement {
     const { visits } = this.manifest;
     const row = element('tr');
@@ -113,7 +123,7 @@ export class MeasureTable {
     const values = visits.map(({ label }, visit) => head([labelOf(label)], this.columnClass(visit)));
     const changes = visits.length > 1 ? [
       head([new Text('Change, '), labelOf(visits[this.choice.visit].label), new Text(' against '), labelOf(visits[0].label)], 'change'), head('By measurement alone', 'measured'),
-      head('Beyond what measurement and repetition make', 'verdict'), head('Interval mostly from', 'part'),
+      head('Beyond what measurement and repetition make', 'verdict'), ...(this.onlyPart() ? [] : [head('Interval mostly from', 'part')]),
     ] : [];
     row.append(name, ...inOrder(values, changes));
     return row;
@@ -128,6 +138,7 @@ export class MeasureTable {
       return figureCell(value && valueFigure(value, measure.unit), this.columnClass(visit));
     });
     const changes = visits.length > 1 ? changeCells(change, measure, this.choice.visit) : [];
+    if (this.onlyPart()) changes.splice(3);
     row.append(...rowHeads(measure, group, place), ...inOrder(values, changes));
     return row;
   }
@@ -141,6 +152,7 @@ export class MeasureTable {
       body.append(...group.map((measure, place) => this.row(measure, group, place)));
       return body;
     }));
-    this.box.replaceChildren(table);
+    const only = this.onlyPart();
+    this.box.replaceChildren(table, ...(only ? [element('p', `All intervals of the changes come mostly from ${partWords[only] ?? only}.`, 'all-from')] : []));
   }
 }

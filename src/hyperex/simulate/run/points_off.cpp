@@ -19,6 +19,8 @@ constexpr double kNearMesh_m = 0.010;
 constexpr double kOnePlace_m = 0.001;
 /// A cause that accounts for this share of the distance is named.
 constexpr double kMostOfIt = 0.75;
+/// The square root of the 95th percentile of chi^2 with three degrees of freedom.
+constexpr double kInSpace95 = 2.795;
 
 double departure_m(const PointCurve& wanted, int row, double time_s, double step_s) {
   const double before_s = step_s * std::floor(time_s / step_s);
@@ -113,6 +115,16 @@ std::string points_off_text(const std::vector<std::string>& names, const std::ve
                      off.size() > 1 ? "s end" : " ends", 1e3 * most_m,
                      off.size() > 1 ? "they are" : "it is",
                      off.size() > named.size() ? ", the farthest" : "", fmt::join(named, ", "));
+}
+
+bool is_within_jitter(double off_m, double jitter_m) {
+  return off_m <= kInSpace95 * jitter_m;
+}
+
+std::string jitter_text(double jitter_m) {
+  return fmt::format(
+      "the recording's jitter of {:.2f} mm alone moves a point by up to {:.2f} mm (95 %)",
+      1e3 * jitter_m, 1e3 * kInSpace95 * jitter_m);
 }
 
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched) {

@@ -38,6 +38,13 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
 std::string points_off_text(const std::vector<std::string>& names, const std::vector<double>& off_m,
                             double within_m);
 
+/// Whether jitter of the recording alone may move a point as far: 95 % of errors whose standard
+/// deviation is `jitter_m` per coordinate are shorter than 2.8 jitter_m in space. False where the
+/// jitter is not known (NaN).
+bool is_within_jitter(double off_m, double jitter_m);
+/// "the recording's jitter of 0.20 mm alone moves a point by up to 0.56 mm (95 %)"
+std::string jitter_text(double jitter_m);
+
 /// Why the point ends elsewhere than it is driven, as a part of a sentence. Empty where no cause
 /// can be established. `touched`: contact changed some frame.
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "hyperex/fem/form/inverted.hpp"
+#include "hyperex/motion/jitter.hpp"
 #include "hyperex/simulate/run/points_off.hpp"
 #include "hyperex/simulate/run/simulator_impl.hpp"
 
@@ -101,6 +102,13 @@ void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const Po
     report.driven_off_mm = std::max(report.driven_off_mm, 1e3 * one_m);
   const std::string text = points_off_text(driven.names, off_m, kDrivenWithin_m);
   if (text.empty()) return;
+  const double jitter_m =
+      options.drive.gain * motion::jitter_of_motion(motion->motion, driven.rows);
+  if (is_within_jitter(1e-3 * report.driven_off_mm, jitter_m)) {
+    report.notes.push_back(
+        make_note("drive.points_off_by_jitter", text + "; " + jitter_text(jitter_m)));
+    return;
+  }
   const std::string reason =
       reason_of(farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m),
                 options, report.contact.frames > 0);

@@ -97,12 +97,7 @@ void Simulator::Impl::report_solution(const Solution& solution) {
   report.driven_nodes = static_cast<int>(stages.boundary->driven_nodes().size());
   report.skull_nodes = stages.boundary->skull_count();
   report.mandible_nodes = stages.boundary->mandible_count();
-  if (!solution.converged)
-    warn("solver.reduced_not_converged", "solver.method",
-         fmt::format("The reduced model stopped growing at {} vectors with an estimated error of "
-                     "{:.1e}, above the wanted {:g}: solving for all unknowns at every step (the "
-                     "direct method) has no such error.",
-                     solution.basis_size, solution.estimated_error, options.solver.tolerance));
+  add(report.notes, note_on_reduced_error(solution, options.solver.tolerance));
 }
 
 void Simulator::Impl::simulate_tissue(const std::vector<FrameTime>& frame_times,

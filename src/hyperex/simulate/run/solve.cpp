@@ -1,10 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/simulate/run/solve.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
 namespace hyperex::simulate {
+namespace {
+
+/// An error below this is half of what a run resolves (0.1 mm).
+constexpr double kHarmlessError_m = 0.05e-3;
+
+}  // namespace
 
 Solution run_full(fem::Newmark& newmark, const fem::Drive& drive, const std::vector<double>& times,
                   const StepProgress& progress) {
@@ -49,8 +57,23 @@ Solution run_reduced(const fem::ReducedModel& model, const fem::Response& respon
   out.displacement = response.displacement(times);
   out.basis_size = response.basis_size;
   out.estimated_error = response.estimated_error;
+  out.greatest_displacement_m = response.greatest_displacement_m;
   out.converged = response.converged;
   return out;
+}
+
+std::optional<Note> note_on_reduced_error(const Solution& solution, double tolerance) {
+  if (solution.converged) return {};
+  const double error_m = solution.estimated_error * solution.greatest_displacement_m;
+  const bool harmless = error_m < kHarmlessError_m;
+  std::string text = fmt::format(
+      "The reduced model stopped growing at {} vectors. Its estimated error is {:.2g} mm{}: {:.1e} "
+      "of the greatest motion, where solver.tolerance asks for {:g}. solver.method = \"direct\" "
+      "has no such error and takes longer.",
+      solution.basis_size, 1e3 * error_m, harmless ? ", too little to matter" : "",
+      solution.estimated_error, tolerance);
+  return harmless ? make_note("solver.reduced_error_small", std::move(text), "solver.method")
+                  : make_warning("solver.reduced_not_converged", std::move(text), "solver.method");
 }
 
 double greatest_difference(const Eigen::MatrixXd& a, const Eigen::MatrixXd& truth) {

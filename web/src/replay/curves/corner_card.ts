@@ -42,7 +42,7 @@ function floorWords(replay: Replay, corners: Corners): string {
 }
 
 /** The cut-off of the filter that figures are of and the curve is not; 0: both are of the same path. */
-const filterHz = (replay: Replay): number =>
+export const filterHz = (replay: Replay): number =>
   (replay.symmetry?.jitter_mm ?? 0) > 0 ? (replay.summary.symmetry as { lowpass_hz?: number } | undefined)?.lowpass_hz ?? 0 : 0;
 
 /** Figures are of filtered paths, the curve is not. */
@@ -145,12 +145,11 @@ function whatWords(replay: Replay, face: number): string {
   return `These are the largest distances of both corners from rest${replay.faces.length > 1 ? ` in ${faceWords(replay.faces, face)}` : ''}.${direction}`;
 }
 
-/** Where the jaw alone would carry the corner, a sentence; empty where it does not move, or is not known. */
+/** Where the jaw alone would carry the corner; empty where it does not move, or is not known. */
 function jawSentence(row: VariantRow | undefined, side: Side): string {
-  const [withJaw, turned] = ['with_jaw', 'with_turned_jaw'].map((what) => row?.[`commissure_${letterOf[side]}_${what}_mm`]);
+  const withJaw = row?.[`commissure_${letterOf[side]}_with_jaw_mm`];
   if (!isNumber(withJaw) || withJaw < sameMm) return '';
-  const joints = isNumber(turned) ? ` (${mm(turned)} if the jaw only turned about its joints)` : '';
-  return ` Fixed to the lower jaw it would go ${mm(withJaw)}${joints}, and skin follows the jaw in part.`;
+  return ` Fixed to the lower jaw it would go ${mm(withJaw)}. Skin follows the jaw in part.`;
 }
 
 /** Why a corner still moves on a side of which no muscle of this face pulls; empty where some do. */
