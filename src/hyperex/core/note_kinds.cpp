@@ -83,6 +83,8 @@ constexpr NoteKind kKinds[] = {
     "is usual; it gives no figures of that corner, and none that compare the two."),
   warning("recording.coarse", "motion.file",
     "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
+  warning("recording.short", "motion.file",
+    "The recording has fewer than five samples: what the face does between them is interpolated."),
   warning("recording.shapes_lost", "motion.arkit",
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.size_implausible", "motion.unit",

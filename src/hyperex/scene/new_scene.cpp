@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "hyperex/core/files.hpp"
@@ -115,6 +116,13 @@ std::string new_scene_text(const NewScene& of) {
     out +=
         "# The face is tracked first; its first frames are taken for the face at rest.\n"
         "# mirrored = true  # where the pictures show the world as a mirror does\n";
+  if (of.long_s > 0)
+    out += fmt::format(
+        "\n# The recording lasts {:.4g} s. To run a part of it:\n"
+        "# [time]\n"
+        "# start_s = {:.4g}  # where the run begins in the recording\n"
+        "# end_s = 6         # how long the run lasts\n",
+        of.long_s, std::round(of.long_s / 2));
   if (of.vtu_every > 1)
     out += fmt::format(
         "\n[output]\n"

@@ -235,7 +235,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    for (std::optional<Note> doubt : {timing_warning(m), coarse_warning(m)}) {
+    for (std::optional<Note> doubt :
+         {timing_warning(m), coarse_warning(m), short_warning(m.time_s)}) {
       for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
                                       {"motion.openface", &scene.motion.openface},
                                       {"motion.recording", &scene.motion.recording}})
