@@ -183,6 +183,17 @@ TEST_F(Outputs, AFolderWhoseNameIsNoUtf8WillDo) {
   expect_refused("run scene.toml --out '" + folder + "'", "no earlier run is known");
 }
 
+TEST_F(Outputs, ARunSaysThatItReplacesAnEarlierOne) {
+  add_variant("stiff");
+  const std::string said =
+      "info: replacing the results of an earlier run in out once this run ends";
+  EXPECT_THAT(call("run scene.toml --out out").err, testing::Not(HasSubstr("replacing")));
+  EXPECT_THAT(call("run scene.toml --out out").err, HasSubstr(said + "\n"));
+  EXPECT_THAT(call("run scene.toml --out out --no-variants").err,
+              HasSubstr(said + ", those of its variants too\n"));
+  EXPECT_FALSE(fs::exists(in("out/variants")));
+}
+
 TEST_F(Outputs, AVariantsNameMayHoldAComma) {
   add_variant("stiff, both (x2)");
   expect_run("out");
