@@ -254,6 +254,9 @@ constexpr NoteKind kKinds[] = {
   note("eyes.closed", "scan.file",
     "The recording has a gaze, and the scan has no opening at an eye: this eye is not seen to "
     "turn."),
+  note("gaze.not_ahead_at_rest", "motion.rest_s",
+    "The eyes look up or down by 5 degrees or more where the recording is taken for rest. Lids do "
+    "not follow that part of the gaze."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
 };
