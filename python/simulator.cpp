@@ -17,6 +17,7 @@
 #include "meshes.hpp"
 #include "obstacles.hpp"
 #include "performance.hpp"
+#include "refuse.hpp"
 #include "warn_user.hpp"
 
 namespace hyperex::python {
@@ -25,6 +26,7 @@ namespace {
 using simulate::AlignedMotion;
 using simulate::SimulationOptions;
 using simulate::TissueValues;
+using SampleArray = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
 /// Values a tetrahedron of some parameters are completed by the uniform ones of the others.
 TissueValues completed(TissueValues values, std::size_t tets) {
@@ -94,9 +96,18 @@ class PythonSimulator {
     change([&](auto& s) { s.set_options(with_all_values(options)); });
   }
 
-  PointsF step(const Points& displacement_m) {
+  /// Called without Python's lock.
+  PointsF step(const SampleArray& displacement_m) {
     const auto held = hold();
-    return simulator_.step(displacement_m);
+    const Eigen::Index points = simulator_.motion().rest.rows();
+    if (displacement_m.ndim() != 2 || displacement_m.shape(1) != 3) {
+      const py::gil_scoped_acquire python;
+      refuse("displacement_m",
+             "an array of shape " + py::str(displacement_m.attr("shape")).cast<std::string>(),
+             fmt::format("({}, 3): points of the motion, axes (metres)", points));
+    }
+    return simulator_.step(
+        Eigen::Map<const Points>(displacement_m.data(), displacement_m.shape(0), 3));
   }
 
   std::unique_ptr<RunResult> run(py::object progress, py::object cancelled) {

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The mesh of the soft tissue, and what the tissue is made of.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
 #include "arrays.hpp"
 #include "hyperex/session/thinned_scan.hpp"
 #include "hyperex/simulate/options.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
 #include "meshes.hpp"
 #include "options_class.hpp"
+#include "refuse.hpp"
+#include "warn_user.hpp"
 
 namespace hyperex::python {
 namespace {
@@ -66,6 +72,27 @@ void bind_mesh(py::module_& m) {
         Unlocked(), "The same from a surface and its landmarks (completed: complete_landmarks).");
 }
 
+/// Refuses values out of the bounds that scenes have, as soon as they are given.
+void refuse_out_of_bounds(tissue::Parameter p, const std::vector<double>& values, const char* one) {
+  const tissue::ParameterInfo& info = tissue::parameter_info(p);
+  for (const double value : values)
+    if (!tissue::is_allowed(p, value))
+      refuse("tissue." + info.name, fmt::format("{:g}", value),
+             fmt::format("{} {}", one, info.allowed_si));
+}
+
+/// Below a kilopascal everywhere is more often a value in kilopascals than tissue that soft.
+void warn_of_kilopascals(tissue::Parameter p, const std::vector<double>& values) {
+  constexpr double soft_pa = 1000;
+  if (p != tissue::young || values.empty()) return;
+  const double stiffest_pa = *std::ranges::max_element(values);
+  if (stiffest_pa >= soft_pa) return;
+  warn_user({{"", Severity::warning,
+              fmt::format("tissue.young_pa = {0:g} Pa: expected pascals; {0:g} kPa are {1:g} Pa",
+                          stiffest_pa, 1e3 * stiffest_pa),
+              ""}});
+}
+
 /// A number for all the tissue, or one for each tetrahedron.
 void value_field(OptionsClass<TissueValues>& tissue, const char* name, tissue::Parameter p,
                  const char* doc) {
@@ -76,17 +103,17 @@ void value_field(OptionsClass<TissueValues>& tissue, const char* name, tissue::P
         return py::array_t<double>(py::ssize_t(self.element[p].size()), self.element[p].data());
       },
       [p](TissueValues& self, py::handle value) {
-        if (py::isinstance<py::float_>(value) || py::isinstance<py::int_>(value)) {
-          self.uniform[p] = value.cast<double>();
-          self.element[p].clear();
-          return;
-        }
         const auto array =
             value.cast<py::array_t<double, py::array::c_style | py::array::forcecast>>();
-        if (array.ndim() == 0)
-          self.uniform[p] = *array.data(), self.element[p].clear();
-        else
-          self.element[p].assign(array.data(), array.data() + array.size());
+        std::vector<double> given(array.data(), array.data() + array.size());
+        const bool uniform = array.ndim() == 0;
+        refuse_out_of_bounds(p, given, uniform ? "a number" : "numbers");
+        warn_of_kilopascals(p, given);
+        if (uniform) {
+          self.uniform[p] = given.front();
+          given.clear();
+        }
+        self.element[p] = std::move(given);
       },
       "float | NDArray[np.float64]", doc);
 }
@@ -111,11 +138,14 @@ void bind_tissue(py::module_& m) {
         return py::array_t<double>(py::ssize_t(self.volume_ratio.size()), self.volume_ratio.data());
       },
       [](TissueValues& self, py::handle value) {
-        self.volume_ratio.clear();
-        if (value.is_none()) return;
+        if (value.is_none()) return self.volume_ratio.clear();
         const auto array =
             value.cast<py::array_t<double, py::array::c_style | py::array::forcecast>>();
-        self.volume_ratio.assign(array.data(), array.data() + array.size());
+        const std::vector<double> given(array.data(), array.data() + array.size());
+        for (const double ratio : given)
+          if (!(ratio > 0) || !std::isfinite(ratio))
+            refuse("tissue.volume_ratio", fmt::format("{:g}", ratio), "positive numbers");
+        self.volume_ratio = given;
       },
       "NDArray[np.float64] | None",
       "Volume at rest over that of the mesh, one per tetrahedron, as of filler; None: 1.");

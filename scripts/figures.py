@@ -8,8 +8,9 @@ Every row of a table whose last column is "from" links there to the page that it
 other cells must stand in that page (`code`, as in commands and names, is left out, and so is the first column).
 A command of the column "command" begins with a target of the Makefile (make X), a path or an installed program.
 Without PAGE, the decimals of README.md's section "How good is it?" must stand in docs/how_good.md too, and those of its
-SENTENCES in their rows there.
+SENTENCES in their rows there. The figures of KEPT are those that tests/golden keeps of a run, rounded.
 """
+import json
 import re
 import sys
 from pathlib import Path
@@ -17,6 +18,9 @@ from pathlib import Path
 ROOT = Path(__file__).resolve().parent.parent
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w]|\.\d)")
 SENTENCES = ((r"seven recorded points has ([\d.]+)\s+times", "real smile, 7 points: below the eyes / lips / cheeks"),)
+# page, the first cell of a table's head, the first cell of its row, and the kept values of a cell, {} its column
+KEPT = (("docs/symmetry.md", "element size, mm", "3.3 (default)",
+         ("variants: {}: added_xi_difference", "variants: {}: added_xi_floor")),)
 LINK = re.compile(r"\]\(([^)#]+)(?:#[^)]*)?\)")
 
 
@@ -46,6 +50,27 @@ def of_its_row(text, page):
             yield f"README.md: nothing like {words!r}" if not said else f"{page.name}: no row {label!r}"
         elif said.group(1) != numbers(row.group(1))[0]:
             yield f"README.md: {said.group(1)} is {numbers(row.group(1))[0]} in {page.name}"
+
+
+def not_as_kept(root):
+    """Of the rows of KEPT: how many figures there are, and complaints of those that tests/golden keeps otherwise."""
+    golden = json.loads((root / "tests/golden/demo_summary.json").read_text(encoding="utf-8"))["values"]
+    count, complaints = 0, []
+    for name, head, label, keys in KEPT:
+        lines = (root / name).read_text(encoding="utf-8").splitlines()
+        heads = next((cells(line) for line in lines if line.startswith(f"| {head} |")), [])
+        row = next((cells(line) for line in lines if line.startswith(f"| {label} |")), [])
+        if len(row) < 2 or len(row) != len(heads):
+            complaints.append(f"{name}: no row {label} of a table that begins with {head}")
+        for column, cell in zip(heads[1:], row[1:]):
+            said = numbers(cell.replace("*", ""))
+            kept = [golden[key.format(column)]["value"] for key in keys]
+            count += len(said)
+            decimals = [len(figure.partition(".")[2]) for figure in said]
+            if len(said) != len(kept) or any(float(s) != round(k, d) for s, k, d in zip(said, kept, decimals)):
+                complaints.append(f"{name}: {label}, {column}: {', '.join(said)}, tests/golden keeps "
+                                  + ", ".join(f"{k:g}" for k in kept))
+    return count, complaints
 
 
 def not_in_the_page(readme, page):
@@ -103,6 +128,11 @@ def main(arguments):
             print(complaint)
             wrong += 1
         checked += of_readme
+        as_kept, complaints = not_as_kept(ROOT)
+        for complaint in complaints:
+            print(complaint)
+        wrong += len(complaints)
+        checked += as_kept
     if wrong or not checked:
         print(f"figures: {wrong} of {checked} not found", file=sys.stderr)
         return 1

@@ -29,6 +29,7 @@
 #include "hyperex/core/standard_streams.hpp"
 #include "hyperex/motion/option_error.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "unexpected.hpp"
 
 namespace {
 
@@ -140,6 +141,9 @@ int status_of(CLI::App& program, int argc, char** argv) {
     return 0;
   } catch (const CLI::Success& done) {  // --help, --version
     return program.exit(done);
+  } catch (const CLI::ExtrasError&) {  // its own words have the arguments in reverse order
+    print_error(hyperex::cli::unexpected(program));
+    return 2;
   } catch (const CLI::ParseError& error) {
     print_error(error.what());
     return 2;

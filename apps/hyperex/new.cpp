@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "commands.hpp"
@@ -16,6 +19,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/core/printable.hpp"
+#include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/still_points.hpp"
@@ -23,6 +27,7 @@
 #include "hyperex/scene/new_scene.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/check_alone.hpp"
+#include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_names.hpp"
 #include "hyperex/session/run_cost.hpp"
 
@@ -83,14 +88,45 @@ void refuse_no_recording(const std::string& scan, const std::string& motion) {
   }
 }
 
-/// How many frames apart those for ParaView are written, so that the run stays within its bound.
-int vtu_every_of(const scene::Scene& scene) {
+/// What a run of the new scene takes; nothing where hyperex check will say why that is not known.
+std::optional<session::RunCost> cost_of(const scene::Scene& scene) {
   try {
-    const auto cost = session::cost_before_tracking(scene);
-    return cost ? session::vtu_every_within_bound(scene, *cost) : 1;
+    return session::cost_before_tracking(scene);
   } catch (const InputError&) {
-    return 1;  // hyperex check reports it
+    return std::nullopt;
   }
+}
+
+/// Writes fewer frames of a long recording, so that the run stays within its bound, and says how to
+/// run a part of it. Returns the cost of a run that takes minutes.
+std::optional<session::RunCost> suit_long_recording(scene::NewScene& made, const fs::path& to) {
+  constexpr double long_s = 60;
+  const auto scene = [&] { return scene::read_scene_text(scene::new_scene_text(made), to); };
+  const scene::Scene whole = scene();  // throws before anything is written
+  auto cost = cost_of(whole);
+  if (!cost) return std::nullopt;
+  made.vtu_every = session::vtu_every_within_bound(whole, *cost);
+  if (cost->seconds < long_s) return std::nullopt;
+  made.long_s = cost->to_s - cost->from_s;
+  return made.vtu_every > 1 ? cost_of(scene()) : cost;
+}
+
+/// The forecast of a run that takes minutes, and the command that runs a part of the recording.
+std::string words_on_a_part(const session::RunCost& whole, const std::string& to,
+                            const std::string& name) {
+  const double from_s = std::round((whole.to_s - whole.from_s) / 2);
+  return fmt::format(
+      "{0}\na part of it, 6 s from {1:.4g} s on: hyperex run {2} --out out/{3} --set "
+      "time.start_s={1:.4g} --set time.end_s=6\n",
+      session::sentence_of(whole), from_s, to, name);
+}
+
+/// Refuses a table that is no motion. Returns a doubt about one that is very short.
+std::optional<Note> doubt_of_length(const std::string& key, const std::string& file) {
+  if (key == "motion.arkit") return session::short_warning(expression::read_arkit(file).time_s);
+  if (key == "motion.openface")
+    return session::short_warning(expression::read_openface(file).time_s);
+  return std::nullopt;
 }
 
 /// What a check would say of the recording by itself: the scene is written all the same, so that it
@@ -130,24 +166,29 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   made.motion = seen_from(folder, motion);
   made.motion_key = motion == "embedded" ? "motion.file" : scene::recording_key(motion);
   std::vector<std::string> doubts;
+  if (const auto doubt = doubt_of_length(made.motion_key, motion)) doubts.push_back(doubt->text);
   motion::StillPoints still;
   if (made.motion_key == "motion.file" && motion != "embedded") {
     const motion::Motion points = motion::read_motion(motion);
+    if (points.time_s.size() < 2)
+      throw InputError(motion, "has one sample, and nothing moves; expected two or more");
+    if (const auto doubt = session::short_warning(points.time_s)) doubts.push_back(doubt->text);
     still = session::points_to_hold_the_head(points);
     made.rigid_points = still.names;
-    doubts = session::doubts_of_names(points, made.rigid_points);
+    for (std::string& doubt : session::doubts_of_names(points, made.rigid_points))
+      doubts.push_back(std::move(doubt));
     add_doubts_of_sides(points, doubts);
   }
-  // Throws before anything is written.
-  made.vtu_every = vtu_every_of(scene::read_scene_text(scene::new_scene_text(made), to));
+  const auto cost = suit_long_recording(made, to);
   const std::string text = scene::new_scene_text(made);
   write_file_atomically(to, [&](std::ostream& out) { out << text; });
   for (const std::string& doubt : doubts) spdlog::warn("{}", doubt);
   if (!still.names.empty())
     std::cout << motion::still_points_sentence(still) << " (motion.rigid_points)\n";
   std::cout << fmt::format(
-      "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n",  //
-      printable(to.string()), printable(made.name));
+      "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n{2}",
+      printable(to.string()), printable(made.name),
+      cost ? words_on_a_part(*cost, printable(to.string()), printable(made.name)) : "");
 }
 
 }  // namespace

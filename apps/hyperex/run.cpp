@@ -50,6 +50,18 @@ std::string budget_lines(const nlohmann::ordered_json& summary) {
   return lines;
 }
 
+/// What the file is for, and how far it is from the motion where its largest size allows no less.
+std::string use_of_glb(const nlohmann::ordered_json& summary) {
+  const std::string programs = "Blender, three.js";
+  if (!summary.contains("glb")) return programs;
+  const auto& output = summary["options"]["output"];
+  const double error_mm = summary["glb"]["largest_error_mm"].get<double>(),
+               wanted_mm = output["glb_tolerance_mm"].get<double>();
+  if (error_mm <= wanted_mm) return programs;
+  return fmt::format("{}; the motion to {:.2f} mm; for {:g} mm set output.glb_max_mb above {:g}",
+                     programs, error_mm, wanted_mm, output["glb_max_mb"].get<double>());
+}
+
 void run(const RunOptions& options) {
   take_library_memory();
   auto overrides = options.overrides;
@@ -74,10 +86,10 @@ void run(const RunOptions& options) {
       run::rescaled_line(summary), run::variant_lines(summary), run::surgery_lines(summary),
       run::expected_error_line(summary), run::activations_line(summary), budget_lines(summary),
       printable(options.out->string()));
-  const std::pair<const char*, const char*> files[] = {
+  const std::pair<const char*, std::string> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},
-      {"performance.glb", "Blender, three.js"},
+      {"performance.glb", use_of_glb(summary)},
       {"frames.pvd", "ParaView"},
       {"skin_peak.ply", "the skin at its peak"},
       {"motion.csv", "landmarks over time"},

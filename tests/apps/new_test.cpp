@@ -46,6 +46,13 @@ TEST_F(NewCommand, OfALongTakeWritesASceneThatPassesTheCheckToo) {
   const Outcome made = call("new embedded long.csv --out me.toml");
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(read_file(in("me.toml")), HasSubstr("\nvtu_every = "));
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr("# The recording lasts 180 s."));
+  EXPECT_THAT(made.out,
+              testing::AllOf(HasSubstr("a run: "), HasSubstr(" on two idle processors"),
+                             testing::EndsWith("a part of it, 6 s from 90 s on: hyperex run "
+                                               "me.toml --out out/me --set time.start_s=90 --set "
+                                               "time.end_s=6\n")));
+  EXPECT_EQ(call("check me.toml --set time.start_s=90 --set time.end_s=6").status, 0);
   const Outcome checked = call("check me.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
   const Outcome refused = call("check me.toml --set output.vtu_every=1");
@@ -53,6 +60,7 @@ TEST_F(NewCommand, OfALongTakeWritesASceneThatPassesTheCheckToo) {
   EXPECT_THAT(refused.err, HasSubstr("or more, which leaves 20 % to spare"));
   ASSERT_EQ(call("new embedded embedded --out short.toml").status, 0);
   EXPECT_THAT(read_file(in("short.toml")), testing::Not(HasSubstr("vtu_every")));
+  EXPECT_THAT(read_file(in("short.toml")), testing::Not(HasSubstr("The recording lasts")));
 }
 
 TEST_F(NewCommand, ItsVariantIsLeftOutOfTheCheckAsOfARun) {
@@ -246,6 +254,25 @@ TEST_F(NewCommand, RefusesAnEmptyTableInOneLine) {
     EXPECT_THAT(problems_in(made.err), testing::ElementsAre(HasSubstr(why)));
     EXPECT_FALSE(std::filesystem::exists(in("a.toml")));
   }
+}
+
+TEST_F(NewCommand, RefusesARecordingOfOneSampleAndWarnsOfAFew) {
+  const std::string weights = "time_s,jawOpen\n", first = weights + "0,0\n";
+  put(in("none.csv"), weights);
+  put(in("one.csv"), first);
+  put(in("point.csv"), "time_s,a_x_mm,a_y_mm,a_z_mm\n0,0,0,0\n");
+  for (const auto& [file, why] :
+       {std::pair{"none.csv", "none.csv: fewer than two rows; expected a recording"},
+        {"one.csv", "one.csv: fewer than two rows; expected a recording"},
+        {"point.csv", "point.csv: has one sample, and nothing moves; expected two or more"}})
+    expect_refused(std::string("new embedded ") + file + " --out a.toml", why);
+  put(in("few.csv"), first + "0.5,0.5\n");
+  const Outcome few = call("new embedded few.csv --out few.toml");
+  EXPECT_EQ(few.status, 0);
+  EXPECT_THAT(few.err, HasSubstr("warning: the recording has 2 samples in 0.5 s"));
+  EXPECT_THAT(call("check few.toml").out,
+              testing::AllOf(HasSubstr("warning: the recording has 2 samples"),
+                             HasSubstr("but one warning")));
 }
 
 TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {

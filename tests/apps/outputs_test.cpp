@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Existing files at the place of outputs belong to the user, unless an earlier run wrote them.
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <fstream>
@@ -182,6 +183,17 @@ TEST_F(Outputs, AFolderWhoseNameIsNoUtf8WillDo) {
   expect_refused("run scene.toml --out '" + folder + "'", "no earlier run is known");
 }
 
+TEST_F(Outputs, ARunSaysThatItReplacesAnEarlierOne) {
+  add_variant("stiff");
+  const std::string said =
+      "info: replacing the results of an earlier run in out once this run ends";
+  EXPECT_THAT(call("run scene.toml --out out").err, testing::Not(HasSubstr("replacing")));
+  EXPECT_THAT(call("run scene.toml --out out").err, HasSubstr(said + "\n"));
+  EXPECT_THAT(call("run scene.toml --out out --no-variants").err,
+              HasSubstr(said + ", those of its variants too\n"));
+  EXPECT_FALSE(fs::exists(in("out/variants")));
+}
+
 TEST_F(Outputs, AVariantsNameMayHoldAComma) {
   add_variant("stiff, both (x2)");
   expect_run("out");
@@ -222,6 +234,26 @@ TEST_F(Outputs, WhatIsNoCommandOrSceneIsToldAsSuch) {
   expect_refused("run face.ply", "this is a scan. hyperex new face.ply MOTION writes one");
   expect_refused("run sceen.toml", "sceen.toml: expected an existing scene file");
   expect_refused("run scene.toml", "--out is required");
+}
+
+TEST_F(Outputs, WhatACommandDoesNotExpectIsNamedInTheOrderGiven) {
+  for (const char* sets : {"scene.toml --set time.start_s=1 --set time.end_s=2", "--set a=1"})
+    expect_refused(fmt::format("studio --no-browser {}", sets),
+                   "hyperex: studio has no --set: put the key into the scene file");
+  for (const char* sets :
+       {"scene.toml --set tissue.young_kpa 300", "--set tissue.young_kpa 300 scene.toml"})
+    expect_refused(fmt::format("run {} --out out", sets),
+                   "hyperex: --set expects KEY=VALUE: 'tissue.young_kpa' has no '='");
+  expect_refused("rig face.ply --out rig.glb --no-cache",
+                 "rig has no --no-cache: it neither keeps nor uses results of earlier runs");
+  expect_refused("run scene.toml --out out --no-variant", "(did you mean --no-variants?)");
+  expect_refused("run scene.toml --out out --colour=red",
+                 "run has no --colour; hyperex run --help lists its options");
+  expect_refused("run scene.toml b.toml c.toml --out out",
+                 "run does not expect this: b.toml c.toml");
+  EXPECT_THAT(
+      problems_in(call("run scene.toml --out out --loud 3 --colour red").err),
+      testing::ElementsAre(HasSubstr("run has no --loud"), HasSubstr("run has no --colour")));
 }
 
 }  // namespace

@@ -66,6 +66,19 @@ TEST_F(RunOutputs, NameNoFolderOfThisMachine) {
   }
 }
 
+TEST_F(RunOutputs, SayWhereTheGlbIsCoarserThanWanted) {
+  const std::string scene = "run '" + in("patients/Smith_John/scene.toml").string() +
+                            "' --out out --set output.glb=true --set time.end_s=0.5 --set "
+                            "time.frame_rate_hz=60";
+  const Outcome coarse =
+      call(scene + " --set output.glb_tolerance_mm=0.01 --set output.glb_max_mb=0.1");
+  EXPECT_THAT(coarse.out, testing::ContainsRegex(
+                              "performance\\.glb +Blender, three\\.js; the motion to [0-9.]+ mm; "
+                              "for 0\\.01 mm set output\\.glb_max_mb above 0\\.1\n"))
+      << coarse.err;
+  EXPECT_THAT(call(scene).out, testing::ContainsRegex("performance\\.glb +Blender, three\\.js\n"));
+}
+
 /// docs/outputs.md: right, then left, in every table; points in motion.csv stand by name.
 TEST_F(RunOutputs, TheRightSideComesFirst) {
   run("out", "--set output.report=false --set output.vtu=false --set output.glb=false");

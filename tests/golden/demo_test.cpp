@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compares the demo's summary with values kept in demo_summary.json, and two runs with each other.
-// After an intended change of the numbers,
-//   ctest --test-dir build/release -R golden.run_demo
+// Compares the summaries of the demo and of examples/variants.toml with values kept in
+// demo_summary.json, and two runs of the demo with each other. After an intended change of the
+// numbers,
+//   ctest --test-dir build/release -R golden.run
 //   HYPEREX_GOLDEN_UPDATE=1 build/release/bin/test_golden
 // writes each value outside its tolerance into the file and empties its reason, which may no longer
 // be true. Write a new reason: an empty one fails the test.
@@ -14,6 +15,8 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <string>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv.hpp"
@@ -40,10 +43,22 @@ double travel_mm(const fs::path& run, const std::string& landmark) {
   return (place.rowwise() - place.row(0).eval()).rowwise().norm().maxCoeff();
 }
 
+/// What examples/variants.toml says of a variant: "NAME: FIGURE", as "stiffer: added_xi_floor".
+double of_a_variant(const std::string& key) {
+  const auto colon = key.find(": ");
+  const std::string name = key.substr(0, colon), figure = key.substr(colon + 2);
+  const Json summary = Json::parse(read_file(kRuns / "variants" / "summary.json"));
+  for (const Json& row : summary.at("variants").at("table"))
+    if (row.at("name") == name) return row.at(figure).get<double>();
+  throw std::runtime_error("no variant " + name);
+}
+
 /// A result of a run: a path into summary.json, the greatest value of a column of a table ("xi_L of
 /// symmetry.csv"), or the travel of a landmark ("travel_mm of cheek_L"). With the prefix "tet4: "
-/// it is from the run with that element.
+/// it is from the run with that element, with "variants: " from that of several variants.
 double measured(std::string key) {
+  if (const std::string variants = "variants: "; key.starts_with(variants))
+    return of_a_variant(key.substr(variants.size()));
   fs::path run = kRuns / "demo";
   if (const std::string element = "tet4: "; key.starts_with(element)) {
     run = kRuns / "tet4";

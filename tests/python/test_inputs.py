@@ -227,6 +227,29 @@ class Options(unittest.TestCase):
         with self.assertRaisesRegex(TypeError, "points: expected a list, not one string"):
             hyperex.DriveOptions(points="ibug68_8")
 
+    def test_tissue_out_of_the_bounds_of_a_scene_is_refused_when_it_is_made(self):
+        for given, said in (({"young_pa": -1}, r"tissue.young_pa = -1: expected a number from 1 to 1e\+09 Pa"),
+                            ({"young_pa": float("nan")}, "tissue.young_pa = nan: expected a number from 1 to"),
+                            ({"young_pa": [1e5, 0]}, "tissue.young_pa = 0: expected numbers from 1 to"),
+                            ({"poisson": 0.5}, "tissue.poisson = 0.5: expected a number from -0.99 to 0.4999"),
+                            ({"density_kg_m3": 0}, "tissue.density_kg_m3 = 0: expected a number from 0.001"),
+                            ({"volume_ratio": [1, -1]}, "tissue.volume_ratio = -1: expected positive numbers")):
+            with self.assertRaisesRegex(ValueError, said):
+                hyperex.Tissue(**given)
+        tissue = hyperex.Tissue(young_pa=1e4)
+        with self.assertRaises(hyperex.InputError):
+            tissue.young_pa = -1
+        self.assertEqual(tissue.young_pa, 1e4)
+        tissue.young_pa = np.float32(2e4)
+        self.assertEqual(tissue.young_pa, 2e4)
+
+    def test_kilopascals_for_pascals_are_told(self):
+        with self.assertWarnsRegex(UserWarning, r"young_pa = 100 Pa: expected pascals; 100 kPa are 1e\+?05 Pa"):
+            hyperex.Tissue(young_pa=100)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            hyperex.Tissue(young_pa=[100, 1e5], viscosity_pa_s=100)
+
 
 if __name__ == "__main__":
     unittest.main()

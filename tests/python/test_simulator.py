@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 import copy
 import gc
+import re
 import tempfile
 import threading
 import time
@@ -315,6 +316,10 @@ class Stream(unittest.TestCase):
             simulator.step(motion().rest_m)
         with self.assertRaisesRegex(hyperex.InputError, "3 rows: expected 92 points"):
             simulator.step(np.zeros((3, 3)))
+        for shape in ((3, 92), (276,), (92, 2)):
+            with self.assertRaisesRegex(ValueError, rf"displacement_m = an array of shape {re.escape(str(shape))}: "
+                                                    r"expected \(92, 3\)"):
+                simulator.step(np.zeros(shape))
         unmeasured = np.zeros((92, 3))
         unmeasured[11] = np.nan
         with self.assertRaisesRegex(hyperex.InputError, "point 12 of 92 is not finite"):

@@ -58,6 +58,10 @@ void time_at_3_hz(const fs::path& folder) {
   });
 }
 
+void keep_four_samples(const fs::path& folder) {
+  write_opening(folder, 0, 4);
+}
+
 void hold_still(const fs::path& folder) {
   write_opening(folder, 0, 16, [](motion::Motion& m) {
     for (Points& sample : m.positions) sample = m.positions.front();
@@ -260,6 +264,7 @@ const std::vector<NotedScene>& noted_scenes() {
       {"recording.time_unit_doubtful", true, "", time_in_milliseconds},
       {"recording.one_sided", true, "drive.points=\"all\"", lose_a_corner},
       {"recording.coarse", true, "", time_at_3_hz},
+      {"recording.short", true, "", keep_four_samples},
       {"recording.wild_samples", true, "", let_a_marker_jump},
       {"recording.jumps", true, "", let_a_marker_stay_away},
       {"recording.zeros", true, "", lose_a_marker},

@@ -87,6 +87,8 @@ constexpr NoteKind kKinds[] = {
     "is usual; it gives no figures of that corner, and none that compare the two."),
   warning("recording.coarse", "motion.file",
     "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
+  warning("recording.short", "motion.file",
+    "The recording has fewer than five samples: what the face does between them is interpolated."),
   warning("recording.shapes_lost", "motion.arkit",
     "A blend shape that the face model does not have reaches a weight above 0.3."),
   warning("recording.size_implausible", "motion.unit",
@@ -261,6 +263,9 @@ constexpr NoteKind kKinds[] = {
   note("eyes.closed", "scan.file",
     "The recording has a gaze, and the scan has no opening at an eye: this eye is not seen to "
     "turn."),
+  note("gaze.not_ahead_at_rest", "motion.rest_s",
+    "The eyes look up or down by 5 degrees or more where the recording is taken for rest. Lids do "
+    "not follow that part of the gaze."),
   note("symmetry.no_mesh_floor", "",
     "The run has no mirrored twin, so that the floor of the mesh (docs/symmetry.md) is not known."),
 };

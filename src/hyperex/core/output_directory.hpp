@@ -33,6 +33,8 @@ class OutputDirectory {
   OutputDirectory& operator=(const OutputDirectory&) = delete;
   /// Where to write until commit().
   const std::filesystem::path& path() const { return temporary_.path(); }
+  /// What commit() replaces: the files of an earlier run, relative to the folder; empty: none.
+  const std::set<std::string>& earlier_files() const { return known_; }
   /// `text` with the folder's own name in the place of the temporary one: for messages.
   std::string with_own_name(std::string text) const;
   /// An earlier output stays as it was where this throws InputError. Files that others put into

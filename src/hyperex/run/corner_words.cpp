@@ -91,13 +91,15 @@ std::string moved_words(double mm, const std::string& size, bool weaker) {
   return fmt::format("{} {} mm farther", weaker ? "is dragged" : "moves", size);
 }
 
-/// Where the greatest excursions differ by much less than the paths do: ", but up to 3.7 mm from
-/// its place without the change, at 1.93 s".
+/// Where the greatest excursions differ by much less than the paths do: ", but along the way up to
+/// 3.7 mm from where it is without the change, at 1.93 s". The greatest excursions may belong to
+/// two different expressions of the recording.
 std::string path_clause(const CornerChange& c, double by_mm) {
   const double least = std::fmax(0.3, std::isnan(c.twin_band_mm) ? 0 : c.twin_band_mm);
   if (!(c.far_mm > least) || c.far_mm < 1.5 * std::abs(by_mm)) return "";
-  return fmt::format(", but up to {:.1f} mm from its place without the change, at {:.2f} s",
-                     c.far_mm, c.far_s);
+  return fmt::format(
+      ", but along the way up to {:.1f} mm from where it is without the change, at {:.2f} s",
+      c.far_mm, c.far_s);
 }
 
 /// Whether the change of the distance from rest is within its band.
@@ -137,10 +139,12 @@ std::string change_words(const CornerChange& c) {
   const double from = printed_mm(c.from_mm), to = printed_mm(c.to_mm);
   const double by = printed_change_mm(c.from_mm, c.to_mm), exact = c.to_mm - c.from_mm;
   const std::string aside = direction_clause(c),
-                    hidden = aside.empty() ? path_clause(c, by) : aside;
+                    on_the_way = aside.empty() ? path_clause(c, by) : "",
+                    hidden = aside + on_the_way,
+                    farthest = on_the_way.empty() ? "" : " at its farthest";
   if (std::abs(by) < kSame_mm)
     return fmt::format("{:.1f} mm, {}", from, aside.empty() ? "unchanged" : "as far as before") +
-           hidden;
+           farthest + hidden;
   const bool known = !std::isnan(c.band_mm);
   const HeldAgainst held = held_against(by, exact, known ? c.band_mm : 0);
   const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to),
@@ -149,11 +153,11 @@ std::string change_words(const CornerChange& c) {
                                ? fmt::format(" ({})", budget_band(c.jitter_known, held.limit))
                                : fmt::format(" (+- {})", held.limit);
   if (is_undecided(c))
-    return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + band +
-           hidden;
+    return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + farthest +
+           band + hidden;
   const std::string cannot_tell =
       c.jitter_known ? "" : " (cannot tell: the recording's jitter is not known)";
-  return way + moved_words(by, held.own, c.weaker) + band + cannot_tell + hidden;
+  return way + moved_words(by, held.own, c.weaker) + farthest + band + cannot_tell + hidden;
 }
 
 /// Where the jaw alone would carry the corner, two sentences; empty where it does not move, or is

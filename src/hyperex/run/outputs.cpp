@@ -248,7 +248,7 @@ std::vector<Note> glb_notes(const scene::OutputOptions& output, const report::Gl
       "output.glb_coarse",
       fmt::format("performance.glb shows the motion to {:.2f} mm in place of {:g} mm "
                   "(output.glb_tolerance_mm): "
-                  "its {} shape keys fill output.glb_max_mb = {:g}",
+                  "its {} shape keys fill output.glb_max_mb = {:g}, and a larger one allows more",
                   1e3 * glb.max_error_m, 1e3 * output.glb_tolerance_m, glb.keys, output.glb_max_mb),
       "output.glb_max_mb")};
 }

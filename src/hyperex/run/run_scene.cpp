@@ -3,7 +3,10 @@
 
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <optional>
+#include <set>
+#include <string>
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_directory.hpp"
@@ -129,11 +132,23 @@ Json write_into(session::FaceSession& session, Stopwatch& total,
   return summary;
 }
 
+/// Says that results will go, before the run begins: it may be a mistake in --out.
+void announce_replacing(const OutputDirectory& out, const std::filesystem::path& directory,
+                        bool with_variants) {
+  const std::set<std::string>& earlier = out.earlier_files();
+  if (earlier.empty()) return;
+  const bool variants = std::ranges::any_of(
+      earlier, [](const std::string& file) { return file.starts_with("variants/"); });
+  spdlog::info("replacing the results of an earlier run in {} once this run ends{}",
+               directory.string(), variants && !with_variants ? ", those of its variants too" : "");
+}
+
 }  // namespace
 
 Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory,
                const std::function<bool()>& cancelled) {
   OutputDirectory out(directory, files_of_earlier_run, files_named_by(scene));
+  announce_replacing(out, directory, !scene.variants.empty());
   try {
     Stopwatch total;
     // Meshing alone takes minutes where elements are small, so the cost is stated before it.

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "hyperex/core/files.hpp"
@@ -54,6 +55,25 @@ bool names_a_blend_shape(const std::string& table) {
           return lower_case(column) == lower_case(shape);
         });
       });
+}
+
+/// How to run a part, and fewer frames for ParaView; empty where the recording is short.
+std::string of_a_long_recording(const NewScene& of) {
+  std::string out;
+  if (of.long_s > 0)
+    out += fmt::format(
+        "\n# The recording lasts {:.4g} s. To run a part of it:\n"
+        "# [time]\n"
+        "# start_s = {:.4g}  # where the run begins in the recording\n"
+        "# end_s = 6         # how long the run lasts\n",
+        of.long_s, std::round(of.long_s / 2));
+  if (of.vtu_every > 1)
+    out += fmt::format(
+        "\n[output]\n"
+        "# The recording is long: all frames for ParaView would take more than output.most_gb.\n"
+        "vtu_every = {}  # one frame of this many is written\n",
+        of.vtu_every);
+  return out;
 }
 
 }  // namespace
@@ -115,12 +135,7 @@ std::string new_scene_text(const NewScene& of) {
     out +=
         "# The face is tracked first; its first frames are taken for the face at rest.\n"
         "# mirrored = true  # where the pictures show the world as a mirror does\n";
-  if (of.vtu_every > 1)
-    out += fmt::format(
-        "\n[output]\n"
-        "# The recording is long: all frames for ParaView would take more than output.most_gb.\n"
-        "vtu_every = {}  # one frame of this many is written\n",
-        of.vtu_every);
+  out += of_a_long_recording(of);
   out +=
       "\n[tissue]\n"
       "# young_kpa = 100          # the stiffness of all tissue (Young's modulus)\n"

@@ -25,6 +25,7 @@ struct NewScene {
   std::vector<std::string> rigid_points;  ///< found in the recording; empty: none to be written
   std::string name;   ///< of the scene's file without its extension; for the title and commands
   int vtu_every = 1;  ///< output.vtu_every of a long recording; 1: not written
+  double long_s = 0;  ///< how long a long recording lasts, for a comment on its parts; 0: none
 };
 
 /// The text of the scene, with comments that say what to change next. It has one variant, so that a

@@ -286,6 +286,16 @@ std::optional<Note> coarse_warning(const motion::Motion& m) {
                   step_s, smooth_s));
 }
 
+std::optional<Note> short_warning(const std::vector<double>& time_s) {
+  constexpr std::size_t least = 5;
+  if (time_s.size() < 2 || time_s.size() >= least) return std::nullopt;
+  return make_warning(
+      "recording.short",
+      fmt::format("the recording has {} samples in {:.3g} s: what the face does between them is "
+                  "interpolated, and speeds and jitter are not known (expected: {} or more)",
+                  time_s.size(), time_s.back() - time_s.front(), least));
+}
+
 std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn) {
   constexpr double least_m = 0.05e-3;
   double most_m = 0;

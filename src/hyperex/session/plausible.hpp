@@ -73,6 +73,9 @@ std::optional<Note> timing_warning(const motion::Motion& m);
 /// `recording.coarse`: the median step is above 0.1 s, up to the bound of the former.
 std::optional<Note> coarse_warning(const motion::Motion& m);
 
+/// `recording.short`: two to four samples at the times `time_s`. A recording of one is no motion.
+std::optional<Note> short_warning(const std::vector<double>& time_s);
+
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
 /// `eyes_turn`: the recording has the gaze.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);

@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -102,11 +103,30 @@ motion::Motion read_expressions(const scene::Scene& scene, Inputs& in) {
   return m;
 }
 
+/// `gaze.not_ahead_at_rest`: lids move from the scan's own by what the recording adds to its rest,
+/// and eyes turn by the whole gaze. `rest_s`: when the recording shows rest.
+std::optional<Note> gaze_at_rest_note(const expression::GazeTrack& gaze, double rest_s) {
+  constexpr double least_deg = 5;
+  const auto degrees = expression::degrees_of(gaze.at(rest_s));
+  const double up_deg = 0.5 * (degrees[1] + degrees[3]);
+  if (!(std::abs(up_deg) >= least_deg)) return std::nullopt;
+  return make_note(
+      "gaze.not_ahead_at_rest",
+      fmt::format("the eyes look {:.0f} degrees {} where the recording is taken for rest, and lids "
+                  "count from the scan's own there: they do not follow this part of the gaze; name "
+                  "a stretch with the eyes ahead in motion.rest_s, if there is one",
+                  std::abs(up_deg), up_deg < 0 ? "down" : "up"));
+}
+
 /// Rest is where the scene says; `m` has its head pose taken out. Where the face is led from rest
 /// into the recording, so are the eyes.
 void settle_rest(const scene::Scene& scene, motion::Motion& m, Inputs& in) {
   const auto stretch = rest_stretch(scene.motion);
   const double start_s = scene.motion.start_s;
+  if (in.gaze) {
+    const double middle_s = stretch ? 0.5 * (stretch->from_s + stretch->to_s) : 0;
+    add(in.notes, gaze_at_rest_note(*in.gaze, m.time_s.front() + middle_s));
+  }
   if (!stretch && start_s == 0) return;
   // By default the recording's first sample shows rest.
   auto rested = motion::with_rest(m, stretch.value_or(motion::RestStretch{}), start_s);
@@ -252,7 +272,8 @@ motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::
   const bool whole = is_read_whole(scene, extent);
   if (!scene.motion.source.embedded && whole) {
     in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    for (const std::optional<Note>& doubt : {timing_warning(m), coarse_warning(m)})
+    for (const std::optional<Note>& doubt :
+         {timing_warning(m), coarse_warning(m), short_warning(m.time_s)})
       add(in.notes, about_its_file(scene, doubt));
   }
   const Readings readings =

@@ -63,8 +63,9 @@ TEST(NewScene, OfALongRecordingWritesFewerFrames) {
 }
 
 TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
-  std::string text =
-      new_scene_text({"a.ply", "film.mp4", "motion.recording", "mm", "stated", {}, "a"});
+  NewScene of{"a.ply", "film.mp4", "motion.recording", "mm", "stated", {}, "a"};
+  of.long_s = 134;
+  const std::string text = new_scene_text(of);
   EXPECT_THAT(text, HasSubstr("#   hyperex run a.toml --out out/a\n"));
   // Lines of comments that are keys or tables, uncommented.
   std::string used;
@@ -80,6 +81,7 @@ TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
   EXPECT_EQ(root.at("scan").at("landmarks"), "landmarks.json");
   EXPECT_EQ(root.at("motion").at("mirrored"), true);
   EXPECT_EQ(root.at("tissue").at("preset"), "aged_skin");
+  EXPECT_EQ(root.at("time"), nlohmann::json({{"start_s", 67}, {"end_s", 6}}));
 }
 
 }  // namespace

@@ -190,6 +190,28 @@ TEST(Expressions, LidsFollowAGazeDownAlone) {
   EXPECT_THAT(in.notes, testing::Not(testing::Contains(test::has_id("recording.nothing_moves"))));
 }
 
+/// Lids count from the sample that is rest, eyes from straight ahead.
+TEST(Expressions, EyesThatLookDownAtRestAreTold) {
+  const SceneFolder folder;
+  const auto notes = [&](double at_start, const std::string& keys) {
+    folder.write("gaze.csv", fmt::format("time_s,jawOpen,eyeLookDownLeft,eyeLookDownRight\n"
+                                         "5,0,{0},{0}\n5.1,0,0,0\n5.3,0,0,0\n5.4,0.5,0,0\n",
+                                         at_start));
+    return read_inputs(read_scene(folder.write("gaze.toml",
+                                               "scan.file = \"embedded\"\nmotion.arkit = "
+                                               "\"gaze.csv\"\n" +
+                                                   keys)))
+        .notes;
+  };
+  const auto told = testing::Contains(
+      testing::AllOf(test::is_note("gaze.not_ahead_at_rest"), test::says("look 7 degrees down")));
+  EXPECT_THAT(notes(0.2, ""), told);
+  EXPECT_THAT(notes(0.1, ""),
+              testing::Not(testing::Contains(test::has_id("gaze.not_ahead_at_rest"))));
+  EXPECT_THAT(notes(0.2, "motion.rest_s = [0.1, 0.3]\n"),
+              testing::Not(testing::Contains(test::has_id("gaze.not_ahead_at_rest"))));
+}
+
 TEST(Expressions, WithoutAGazeTurnNoEyes) {
   EXPECT_FALSE(with_wrong_jaw({}).gaze);
 }

@@ -117,6 +117,14 @@ TEST_F(InputNotes, SamplesATenthOfASecondApartAreCloseEnough) {
   EXPECT_THAT(warnings(), ElementsAre(is_warning("recording.coarse")));
 }
 
+TEST_F(InputNotes, NameARecordingOfFewerThanFiveSamples) {
+  open(0, 5, [](motion::Motion&) {});
+  EXPECT_THAT(warnings(), IsEmpty());
+  open(0, 4, [](motion::Motion&) {});
+  EXPECT_THAT(warnings(),
+              ElementsAre(AllOf(is_warning("recording.short"), says("4 samples in 0.1 s"))));
+}
+
 TEST_F(InputNotes, TakeTwoTenthsOfAMillimetreForMotion) {
   const auto by = [&](double mm) {
     open(0, 16, [&](motion::Motion& m) {

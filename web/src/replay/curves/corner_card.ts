@@ -161,13 +161,14 @@ function unpulledWords(row: VariantRow | undefined): string {
   }).join(' ');
 }
 
-/** "up to 3.7 mm from where it is in the unchanged face, at 1.93 s" of the side with the larger distance, which greatest excursions may hide. */
+/** "along the way right corner up to 3.7 mm from where it is in the unchanged face, at 1.93 s" of the side with the
+ *  larger distance, which greatest excursions may hide. */
 function onTheWay(row: VariantRow | undefined, changeMm: number): string {
   const [{ side, mm: far, s }] = sides.map((one) => ({
     side: one, mm: row?.[`commissure_${letterOf[one]}_from_base_mm`], s: row?.[`commissure_${letterOf[one]}_from_base_s`],
   })).sort((a, b) => (Number(b.mm) || 0) - (Number(a.mm) || 0));
   if (!isNumber(far) || !isNumber(s) || far < 0.3 || far < 1.5 * Math.abs(changeMm)) return '';
-  return `${side} corner up to ${mm(far)} from where it is in the unchanged face, at ${s.toFixed(2)} s`;
+  return `along the way ${side} corner up to ${mm(far)} from where it is in the unchanged face, at ${s.toFixed(2)} s`;
 }
 
 /** "right corner 8.9 mm, is dragged 2.2 mm farther than in base (± 0.7 mm)" of the side that changes more; empty where
