@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -111,14 +110,16 @@ std::optional<session::RunCost> suit_long_recording(scene::NewScene& made, const
   return made.vtu_every > 1 ? cost_of(scene()) : cost;
 }
 
-/// The forecast of a run that takes minutes, and the command that runs a part of the recording.
-std::string words_on_a_part(const session::RunCost& whole, const std::string& to,
-                            const std::string& name) {
-  const double from_s = std::round((whole.to_s - whole.from_s) / 2);
-  return fmt::format(
-      "{0}\na part of it, 6 s from {1:.4g} s on: hyperex run {2} --out out/{3} --set "
-      "time.start_s={1:.4g} --set time.end_s=6\n",
-      session::sentence_of(whole), from_s, to, name);
+/// The forecast of a run that takes minutes, and the command that runs a part of a long recording.
+std::string words_on_a_long_run(const session::RunCost& whole, const std::string& to,
+                                const std::string& name) {
+  std::string words = session::sentence_of(whole) + "\n";
+  if (const auto part = scene::part_to_run(whole.to_s - whole.from_s))
+    words += fmt::format(
+        "a part of it, {0:.4g} s from {1:.4g} s on: hyperex run {2} --out out/{3} --set "
+        "time.start_s={1:.4g} --set time.end_s={0:.4g}\n",
+        part->end_s, part->start_s, to, name);
+  return words;
 }
 
 /// Refuses a table that is no motion. Returns a doubt about one that is very short.
@@ -188,7 +189,7 @@ void write_scene(const std::string& scan, const std::string& motion, fs::path to
   std::cout << fmt::format(
       "written: {0}\nnext: hyperex check {0}\n      hyperex run {0} --out out/{1}\n{2}",
       printable(to.string()), printable(made.name),
-      cost ? words_on_a_part(*cost, printable(to.string()), printable(made.name)) : "");
+      cost ? words_on_a_long_run(*cost, printable(to.string()), printable(made.name)) : "");
 }
 
 }  // namespace

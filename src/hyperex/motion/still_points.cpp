@@ -31,7 +31,7 @@ constexpr double kBandGives_m = 0.2e-3;
 constexpr double kLeastStillSize_m = 0.05;
 /// A face that moves less does not show which of its points are still.
 constexpr double kFaceMoves_m = 3e-3;
-/// Of many points a few keep their distances by chance: measured, up to five of 39 on a smile.
+/// Of many points a few keep still by chance: measured, up to three of 39 on a smile.
 constexpr std::size_t kMoreThanChance = 6;
 
 std::vector<int> candidates(const Motion& motion) {

@@ -60,13 +60,13 @@ bool names_a_blend_shape(const std::string& table) {
 /// How to run a part, and fewer frames for ParaView; empty where the recording is short.
 std::string of_a_long_recording(const NewScene& of) {
   std::string out;
-  if (of.long_s > 0)
+  if (const auto part = part_to_run(of.long_s))
     out += fmt::format(
         "\n# The recording lasts {:.4g} s. To run a part of it:\n"
         "# [time]\n"
         "# start_s = {:.4g}  # where the run begins in the recording\n"
-        "# end_s = 6         # how long the run lasts\n",
-        of.long_s, std::round(of.long_s / 2));
+        "# end_s = {:.4g}         # how long the run lasts\n",
+        of.long_s, part->start_s, part->end_s);
   if (of.vtu_every > 1)
     out += fmt::format(
         "\n[output]\n"
@@ -77,6 +77,12 @@ std::string of_a_long_recording(const NewScene& of) {
 }
 
 }  // namespace
+
+std::optional<PartOfRecording> part_to_run(double recording_s) {
+  constexpr double part_s = 6;
+  if (recording_s < 2 * part_s) return std::nullopt;
+  return PartOfRecording{std::round(recording_s / 2), part_s};
+}
 
 std::string recording_key(const std::filesystem::path& recording) {
   const std::string ending = ending_of(recording);

@@ -2,6 +2,7 @@
 #pragma once
 // Makes a first scene from a scan and a recording.
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,15 @@ struct NewScene {
   int vtu_every = 1;  ///< output.vtu_every of a long recording; 1: not written
   double long_s = 0;  ///< how long a long recording lasts, for a comment on its parts; 0: none
 };
+
+/// A part of a recording, as time.start_s and time.end_s of a scene name it.
+struct PartOfRecording {
+  double start_s = 0, end_s = 0;  ///< where it begins in the recording; how long it lasts
+};
+
+/// What a first look at a long recording may show: 6 s from its middle on. Nothing where the whole
+/// recording lasts less than twice as long.
+std::optional<PartOfRecording> part_to_run(double recording_s);
 
 /// The text of the scene, with comments that say what to change next. It has one variant, so that a
 /// first run compares two cases. `name` and paths may contain any character.

@@ -62,6 +62,21 @@ TEST(NewScene, OfALongRecordingWritesFewerFrames) {
   EXPECT_THAT(text, HasSubstr("# The recording is long: all frames for ParaView"));
 }
 
+TEST(NewScene, APartOfARecordingEndsBeforeItDoes) {
+  NewScene of{"a.ply", "a.csv", "motion.arkit", "mm", "stated", {}, "a"};
+  for (const double recording_s : {12.0, 13.0, 134.0, 3600.0}) {
+    const auto part = part_to_run(recording_s);
+    ASSERT_TRUE(part) << recording_s;
+    EXPECT_LE(part->start_s + part->end_s, recording_s + 0.5);
+    of.long_s = recording_s;
+    EXPECT_THAT(new_scene_text(of), HasSubstr("To run a part of it"));
+  }
+  // Noise and many points make a run long, too.
+  EXPECT_FALSE(part_to_run(9.4));
+  of.long_s = 9.4;
+  EXPECT_THAT(new_scene_text(of), testing::Not(HasSubstr("To run a part of it")));
+}
+
 TEST(NewScene, WhatIsCommentedOutIsSoundToo) {
   NewScene of{"a.ply", "film.mp4", "motion.recording", "mm", "stated", {}, "a"};
   of.long_s = 134;

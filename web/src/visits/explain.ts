@@ -17,7 +17,7 @@ const changeWords = (count: number): (string | HTMLElement)[] => [
   'Change: the later visit less the first. ',
   ...(count <= 3 ? [element('span', 'By measurement alone: its interval without repetition. ', 'measured')] : []),
   'Yes: measurement and repetition together do not make such a change. No: they can. Cannot tell: it is beyond repetition and the known errors of measurement, but another of its errors is not known. Without that there is no interval. ' +
-    'Interval mostly from: the largest part of the change’s interval. ',
+    'What an interval mostly comes from is the largest of its parts. ',
 ];
 
 export function explain(host: HTMLElement, { visits, repetition, peak_by, measures }: Manifest): void {
