@@ -142,8 +142,9 @@ constexpr NoteKind kKinds[] = {
   warning("lips.pass_through", "contact.lips",
     "The lips pass through each other by more than 0.5 mm in some frame."),
   warning("rig.lid_doubtful", "scan.landmarks",
-    "In a shape of `hyperex rig` the skin around an eye moves by more than 1.8 times the way of the "
-    "landmarks there, or 1.6 times that of the other eye in the mirrored shape, and by 2 mm more."),
+    "A shape of `hyperex rig` moves the skin around an eye by 1.8 times the way of the landmarks "
+    "there or more. Or it moves it by 1.6 times that of the other eye in the mirrored shape. 2 mm "
+    "beyond either count."),
   warning("tissue.inverted", "tissue.strain",
     "More than 0.1 % of the tetrahedra are turned inside out in some frame."),
   warning("tissue.volume_changed", "mesh.element_size_mm",
