@@ -347,6 +347,7 @@ const std::map<std::string, std::string>& warnings_without_scene() {
       {"scan.flat", "InputNotes.NameAScanWithoutDepth"},
       {"solver.reduced_not_converged", "ReducedError.IsAWarningWhereItMattersAndElseANote"},
       {"symmetry.plane_of_landmarks", "SymmetryNotes.SayWhyThePlaneIsTheLandmarks"},
+      {"rig.lid_doubtful", "LidDoubts.NameAShapeThatMovesALidFartherThanItsLandmarks"},
       {"variant.left_out", "StudioSessionWithWrongVariants.OpensAllElseAndSaysWhatIsLeftOut"},
   };
   return all;

@@ -147,6 +147,10 @@ constexpr NoteKind kKinds[] = {
     "The reduced model's estimated error stayed above solver.tolerance, and is 0.05 mm or more."),
   warning("lips.pass_through", "contact.lips",
     "The lips pass through each other by more than 0.5 mm in some frame."),
+  warning("rig.lid_doubtful", "scan.landmarks",
+    "A shape of `hyperex rig` moves the skin around an eye by 1.8 times the way of the landmarks "
+    "there or more. Or it moves it by 1.6 times that of the other eye in the mirrored shape. 2 mm "
+    "beyond either count."),
   warning("tissue.inverted", "tissue.strain",
     "More than 0.1 % of the tetrahedra are turned inside out in some frame."),
   warning("tissue.volume_changed", "mesh.element_size_mm",

@@ -11,6 +11,7 @@
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/gaze.hpp"
 #include "hyperex/report/face_backing.hpp"
+#include "hyperex/rig/lid_doubts.hpp"
 #include "hyperex/rig/shape_motion.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
@@ -164,6 +165,9 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
     rig.shapes.push_back(simulated.named(name));
   rig.performance = session.simulation().performance;
   close_eyes(rig, session.inputs().landmarks);
+  for (const Note& one :
+       lid_doubts(rig.performance.skin_rest.points, session.inputs().landmarks, rig.shapes))
+    told(one);
   return rig;
 }
 

@@ -101,6 +101,23 @@ TEST_F(Drive, PointsAtAlmostOnePlaceAreMetInTheMean) {
   EXPECT_LT(p.weights.cwiseAbs().maxCoeff(), 1.5) << "the skin is not folded between them";
 }
 
+/// Around an eye the simulated surface ends before the lid does. Two points of the lid, millimetres
+/// apart, then move with one node. The skin around must not be torn to meet each of them.
+TEST_F(Drive, PointsOfALidThatOneNodeCarriesAreMetInTheMean) {
+  const std::vector<std::string> lid = {"ibug68_46", "ibug68_47"};
+  const auto points = at_nodes(lid);
+  ASSERT_GT((points[0].rest - points[1].rest).norm(), 0.003);
+  const int one = node_of(lid[0]), other = node_of(lid[1]);
+  for (const double share : {0.03, 0.1}) {
+    tissue::TissueMesh mesh = face_.mesh;
+    mesh.anchors[std::size_t(other)] = {{one, other, other}, {1 - share, share, 0}};
+    const DrivenPatches p = driven_patches(field_of(points, {}), mesh, 0.012, "motion.csv");
+    EXPECT_LT(p.weights.cwiseAbs().rowwise().sum().maxCoeff(), 2) << share;
+    const Eigen::MatrixXd at = reached(p);
+    for (int k = 0; k < 2; ++k) EXPECT_NEAR((at(0, k) + at(1, k)) / 2, 0.5, 0.05) << share;
+  }
+}
+
 TEST_F(Drive, ACommonTranslationIsFollowed) {
   const DrivenPatches p = patches(test::seven_points());
   for (Eigen::Index j = 0; j < p.weights.rows(); ++j) EXPECT_NEAR(p.weights.row(j).sum(), 1, 1e-9);

@@ -49,6 +49,28 @@ TEST(LidAperture, ClosesByTheSameShareOfAnEyeThatIsWider) {
   EXPECT_NEAR(1e3 * aligned.motion.positions[2](2, 1), kOwn_mm / 8, 1e-9);
 }
 
+/// Both pairs of the left eye, and the middle of its lower lid between them. In a squint the lower
+/// lid rises by 3 mm all along.
+TEST(LidAperture, TheMiddleOfALidGoesWithThePointsBesideIt) {
+  const auto squinting = [](double aperture_mm) {
+    motion::Motion m;
+    m.names = {"ibug68_43", "ibug68_44", "ibug68_46", "ibug68_47", "palpebrale_inferius_L"};
+    for (const double lower_mm : {0, 3}) {
+      Points at(5, 3);
+      at << 30, aperture_mm, 20, 40, aperture_mm, 19, 40, lower_mm, 19, 30, lower_mm, 20, 35,
+          lower_mm - 1, 20;
+      m.time_s.push_back(lower_mm);
+      m.positions.push_back(1e-3 * at);
+    }
+    return m;
+  };
+  AlignedMotion aligned = aligned_as(squinting(kOwn_mm));
+  match_lid_apertures(aligned, squinting(kRecorded_mm));
+  const Points moved_mm = 1e3 * (aligned.motion.positions[1] - aligned.rest);
+  EXPECT_NEAR(moved_mm(3, 1), 3 * kOwn_mm / kRecorded_mm, 1e-9);
+  EXPECT_NEAR(moved_mm(4, 1), moved_mm(3, 1), 1e-9) << "no dip in the middle of the lid";
+}
+
 TEST(LidAperture, LeavesWhatCannotBeCompared) {
   const std::vector<double> course = {0, 1};
   const auto unchanged = [&](const motion::Motion& own, const motion::Motion& recorded) {

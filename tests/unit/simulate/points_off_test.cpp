@@ -86,6 +86,20 @@ TEST(ReasonOff, IsAPointCloserThanTheElementsThatMovesDifferently) {
       << "at one place no drive meets both";
 }
 
+/// No drive tells them apart: displacement meets them no better.
+TEST(ReasonOff, IsAPointThatTheSameNodesCarry) {
+  FarthestPoint point = unexplained();
+  point.neighbour = "lid_middle_lower_L";
+  point.neighbour_m = 0.0125;
+  point.shared = 0.86;
+  for (const DriveBy by : {DriveBy::displacement, DriveBy::muscles})
+    EXPECT_THAT(reason_of(point, driven_by(by), false),
+                AllOf(HasSubstr("same nodes"), HasSubstr("lid_middle_lower_L"),
+                      HasSubstr("12.5 mm"), Not(HasSubstr("drive.by"))));
+  point.shared = 0.5;
+  EXPECT_THAT(reason_of(point, driven_by(DriveBy::muscles), false), HasSubstr("drive.by"));
+}
+
 TEST(ReasonOff, IsThatForcesDriveIt) {
   EXPECT_THAT(reason_of(unexplained(), driven_by(DriveBy::muscles), false),
               HasSubstr("drive.by = \"muscles\""));
@@ -122,6 +136,13 @@ TEST_F(FarthestPointOfAFace, IsTheOneThatIsFarthestOff) {
   EXPECT_LT(chin.between_steps_m, 1e-9) << "it does not move";
   EXPECT_GT(chin.edge_m, 0.003);
   EXPECT_LT(chin.edge_m, 0.05);
+}
+
+TEST_F(FarthestPointOfAFace, SharesNodesWithTheNeighbourThatLiesOnThem) {
+  EXPECT_LT(found(0.01, {0.002, 0, 0}).shared, 0.3) << "they lie on other nodes";
+  landmarks_.at("ibug68_58") =
+      landmarks_.at("ibug68_57") + 0.1 * (landmarks_.at("ibug68_58") - landmarks_.at("ibug68_57"));
+  EXPECT_GT(found(0.01, {0.002, 0, 0}).shared, 0.7);
 }
 
 TEST_F(FarthestPointOfAFace, DepartsFromTheLineBetweenLongSteps) {

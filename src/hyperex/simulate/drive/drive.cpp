@@ -9,6 +9,7 @@
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/error.hpp"
+#include "hyperex/core/symmetric_modes.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/rbf.hpp"
@@ -102,9 +103,23 @@ Eigen::MatrixXd one_place_means(const Points& points) {
   return mean;
 }
 
+/// The inverse of a matrix of inner products, bounded. A mode counts in full where the skin that
+/// carries the points tells them apart as it does at one_place_m. Below that it counts less, in
+/// proportion. Around holes the simulated surface ends before the skin does, so that points well
+/// apart may have the same nodes. To meet each of them would tear the skin around.
+Eigen::MatrixXd bounded_inverse(const Eigen::MatrixXd& gram) {
+  const double least = 1 - wendland(one_place_m);
+  const SymmetricModes modes = symmetric_modes(gram);
+  const Eigen::VectorXd inverse = modes.values.unaryExpr([&](double value) {
+    return value > least ? 1 / (value + correction_ridge)
+                         : std::max(value, 0.0) / least / (least + correction_ridge);
+  });
+  return modes.vectors * inverse.asDiagonal() * modes.vectors.transpose();
+}
+
 /// Adds to the weights W what makes the driven places A W = 1, smoothly: with S the kernel between
 /// nodes and G the means of one_place_means(), of the opened points,
-///   W + S (G A)' (G A S (G A)' + ridge)^-1 G (1 - A W).
+///   W + S (G A)' (G A S (G A)')^-1 G (1 - A W), with bounded_inverse().
 void meet_points(const Points& opened_points, const Points& opened, DrivenPatches& patches) {
   const auto count = static_cast<Eigen::Index>(patches.nodes.size());
   const Eigen::MatrixXd mean = one_place_means(opened_points);
@@ -114,10 +129,8 @@ void meet_points(const Points& opened_points, const Points& opened, DrivenPatche
     for (Eigen::Index k = 0; k <= j; ++k)
       kernel(j, k) = kernel(k, j) = wendland((opened.row(j) - opened.row(k)).norm());
   const Eigen::MatrixXd reach = kernel * a.transpose();
-  Eigen::MatrixXd gram = a * reach;
-  gram.diagonal().array() += correction_ridge;
   const Eigen::MatrixXd missing = mean - a * patches.weights;
-  patches.weights += reach * gram.ldlt().solve(missing);
+  patches.weights += reach * (bounded_inverse(a * reach) * missing);
 }
 
 }  // namespace

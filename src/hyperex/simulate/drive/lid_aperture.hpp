@@ -12,7 +12,8 @@ namespace hyperex::simulate {
 /// (right upper lid) with 41, 40 and 43, 44 (left) with 47, 46, along the line between them at
 /// rest; upper and lower lid share the correction as they share the motion. Pairs that the motion
 /// lacks, or whose aperture at rest is below 2 mm or differs by more than a factor of 2, are left
-/// as they are.
+/// as they are. Where both pairs of an eye are corrected, palpebrale_superius and
+/// palpebrale_inferius between them move by the mean of what their lid's two points are moved by.
 void match_lid_apertures(AlignedMotion& aligned, const motion::Motion& recorded);
 
 }  // namespace hyperex::simulate

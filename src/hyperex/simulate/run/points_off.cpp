@@ -17,6 +17,8 @@ namespace {
 constexpr double kNearMesh_m = 0.010;
 /// Points within this distance of each other have the same nodes, whatever drives them.
 constexpr double kOnePlace_m = 0.001;
+/// Points that share this much of their nodes' weights cannot be told apart by them.
+constexpr double kSameNodes = 0.7;
 /// A cause that accounts for this share of the distance is named.
 constexpr double kMostOfIt = 0.75;
 /// The square root of the 95th percentile of chi^2 with three degrees of freedom.
@@ -75,6 +77,15 @@ void find_neighbour(const DrivenPoints& driven, const PointCurve& wanted,
   }
 }
 
+/// The sum over the outer nodes of the smaller of both places' weights.
+double shared_weight(const tissue::TissueMesh& mesh, const Match& one, const Match& other) {
+  const CarrierMatrix both = carriers(mesh, {one, other});
+  double shared = 0;
+  for (CarrierMatrix::InnerIterator it(both, 0); it; ++it)
+    shared += std::min(it.value(), both.coeff(1, it.col()));
+  return shared;
+}
+
 bool changes_muscles(const MuscleOptions& muscles) {
   return muscles.mirrored ||
          std::ranges::any_of(muscles.gains, [](const MuscleGain& gain) { return gain.gain != 1; });
@@ -94,6 +105,9 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
         std::max(out.between_steps_m, departure_m(wanted, driven.rows[worst], time_s, step_s));
   find_mesh_place(mesh, driven, worst, out);
   find_neighbour(driven, wanted, frame_time_s, worst, out);
+  if (const auto at = std::ranges::find(driven.names, out.neighbour); at != driven.names.end())
+    out.shared = shared_weight(mesh, driven.places[worst],
+                               driven.places[std::size_t(at - driven.names.begin())]);
   return out;
 }
 
@@ -148,6 +162,12 @@ std::string reason_of(const FarthestPoint& point, const SimulationOptions& optio
         "met only on average",
         point.name, 1e3 * point.neighbour_m, face::name_in_words(point.neighbour),
         1e3 * point.edge_m);
+  if (point.shared >= kSameNodes)
+    return fmt::format(
+        "the tissue's mesh has the same nodes for {} and {}, {:.1f} mm from it: such points are "
+        "met "
+        "only on average",
+        point.name, face::name_in_words(point.neighbour), 1e3 * point.neighbour_m);
   if (touched || !by_forces) return "";
   if (changes_muscles(options.muscles))
     return "muscles.gain or muscles.mirrored changes the forces that were found for them";

@@ -24,6 +24,7 @@ struct FarthestPoint {
   /// some frame; empty where there is none.
   std::string neighbour;
   double neighbour_m = std::numeric_limits<double>::infinity();  ///< distance at rest
+  double shared = 0;  ///< share (0 to 1) of the nodes' weights that the neighbour has too
 };
 
 /// `off_m`: DrivenPoints::off_m, at least one. `step_s`: of time.
