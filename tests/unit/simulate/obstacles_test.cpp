@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -230,6 +231,23 @@ TEST_F(ObstacleOfAFace, KeepsTissueOut) {
     EXPECT_LT(r.report.contact.frames, 12);
     EXPECT_EQ(r.report.contact.overlap_mm, 0) << "lips are not asked for";
   }
+}
+
+TEST_F(ObstacleOfAFace, ProgressMovesThroughContactAtFiniteStrain) {
+  options_.drive.gain = 0.7;
+  options_.drive.by = DriveBy::displacement;
+  options_.model.strain = Strain::finite;
+  RunCallbacks callbacks;
+  std::vector<double> shares;
+  callbacks.progress = [&](double share) { shares.push_back(share); };
+  const SimulationResult r = simulator().run(callbacks);
+  EXPECT_TRUE(std::ranges::is_sorted(shares));
+  EXPECT_EQ(shares.back(), 1);
+  const auto within = [&](double from, double to) {
+    return std::ranges::count_if(shares, [&](double s) { return s > from && s < to; });
+  };
+  EXPECT_GE(within(0.4, 0.95), r.report.contact.frames) << "each frame takes its share";
+  EXPECT_GE(within(0, 0.4), 6) << "and the motion before";
 }
 
 TEST_F(ObstacleOfAFace, KeepsTissueOutAtFiniteStrain) {

@@ -16,10 +16,16 @@ void RunProgress::throw_if_cancelled() const {
   if (callbacks_.cancelled && callbacks_.cancelled()) throw Cancelled();
 }
 
+void RunProgress::begin_part(double from, double to) {
+  from_ = from;
+  to_ = to;
+  done_ = 0;
+}
+
 void RunProgress::report(double share) {
   throw_if_cancelled();
   done_ = share;
-  if (callbacks_.progress) callbacks_.progress(share);
+  if (callbacks_.progress) callbacks_.progress(from_ + share * (to_ - from_));
 }
 
 void RunProgress::for_frames(std::size_t count, const std::function<void(std::size_t)>& body) {

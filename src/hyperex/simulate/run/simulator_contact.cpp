@@ -75,10 +75,11 @@ double Simulator::Impl::correct_finite(const ContactFrames& frames,
                           return stages.readout->skin(stages.measured.value(), stages.points->rim,
                                                       nodes, points.at(frames.time_of(i).time_s));
                         });
-  for (const std::size_t frame : touching) {
+  progress.begin_part(kBeforeFiniteContact, 1);
+  for (std::size_t i = 0; i < touching.size(); ++i) {
     progress.throw_if_cancelled();
-    contact.correct(frame, solution.displacement.col(Eigen::Index(frame)));
-    progress.report_of_rest(0.5 / double(touching.size()));
+    contact.correct(touching[i], solution.displacement.col(Eigen::Index(touching[i])));
+    progress.report(0.9 * double(i + 1) / double(touching.size()));
   }
   report.iterations += tissue.iterations();
   report.factorisations += tissue.factorisations();

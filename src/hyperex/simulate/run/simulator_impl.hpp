@@ -21,6 +21,8 @@ namespace hyperex::simulate {
 
 /// Share of a run's progress at which the motion of the tissue is known.
 constexpr double kLoadDone = 0.3, kReducedDone = 0.6, kDirectDone = 0.9;
+/// Share of it at which contact at finite strain begins, which often takes longer than the motion.
+constexpr double kBeforeFiniteContact = 0.4;
 
 struct Simulator::Impl {
   Impl() = default;

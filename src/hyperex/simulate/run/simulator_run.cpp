@@ -133,6 +133,8 @@ void Simulator::Impl::simulate_tissue(const std::vector<FrameTime>& frame_times,
 
 SimulationResult Simulator::Impl::run() {
   report = std::exchange(prepared, {});
+  const bool finite_contact = options.contact.any() && options.model.strain == Strain::finite;
+  progress.begin_part(0, finite_contact ? kBeforeFiniteContact : 1);
   progress.report(0);
   ensure_skin();
   const PointCurve points(*motion, options.drive.gain);
