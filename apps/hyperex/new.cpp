@@ -97,15 +97,16 @@ std::optional<session::RunCost> cost_of(const scene::Scene& scene) {
 }
 
 /// Writes fewer frames of a long recording, so that the run stays within its bound, and says how to
-/// run a part of it. Returns the cost of a run that takes minutes.
+/// run a part of it. Returns the cost of a run that takes minutes, if the recording has two parts
+/// of 6 s.
 std::optional<session::RunCost> suit_long_recording(scene::NewScene& made, const fs::path& to) {
-  constexpr double long_s = 60;
+  constexpr double long_s = 60, two_parts_s = 12;
   const auto scene = [&] { return scene::read_scene_text(scene::new_scene_text(made), to); };
   const scene::Scene whole = scene();  // throws before anything is written
   auto cost = cost_of(whole);
   if (!cost) return std::nullopt;
   made.vtu_every = session::vtu_every_within_bound(whole, *cost);
-  if (cost->seconds < long_s) return std::nullopt;
+  if (cost->seconds < long_s || cost->to_s - cost->from_s < two_parts_s) return std::nullopt;
   made.long_s = cost->to_s - cost->from_s;
   return made.vtu_every > 1 ? cost_of(scene()) : cost;
 }

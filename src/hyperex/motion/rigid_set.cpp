@@ -2,7 +2,6 @@
 #include "hyperex/motion/rigid_set.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 
@@ -18,21 +17,34 @@ using Indices = std::vector<Eigen::Index>;
 constexpr std::size_t kMostRigidSamples = 400;
 constexpr double kShortestMean_s = 0.2;
 constexpr std::size_t kFewestInMean = 5;
-/// Readings farther from the median of five than this, and six times the jitter, are replaced.
+/// A reading farther from its neighbours than this, and six times the jitter, is off them.
 constexpr double kOffNeighbours_m = 0.5e-3;
+/// Of so few samples the jitter cannot be told from the motion: no more of it counts.
+constexpr std::size_t kFewSamples = 20;
+constexpr double kMostJitterOfFew_m = 0.1e-3;
 
-/// Readings that alone are off the samples beside them are replaced by the median of five.
-void replace_lone_readings(TrackedPoints& points) {
-  const std::vector<Points> seen = points.positions;
-  for (std::size_t k = 2; k + 2 < seen.size(); ++k)
-    for (Eigen::Index p = 0; p < seen[k].rows(); ++p)
-      for (Eigen::Index axis = 0; axis < 3; ++axis) {
-        std::vector<double> near;
-        for (std::size_t j = k - 2; j <= k + 2; ++j) near.push_back(seen[j](p, axis));
-        const double middle = median(std::move(near));
-        const double most = kOffNeighbours_m + 6 * points.jitter_m[std::size_t(p)];
-        if (std::abs(seen[k](p, axis) - middle) > most) points.positions[k](p, axis) = middle;
-      }
+/// A coordinate in sample `k`. Where this reading alone is off the two on each side, it is the
+/// median of the five. It is off if it is farther than `most_m` from that median and from the cubic
+/// through the four, which a head that turns quickly follows.
+double without_lone_reading(const Motion& motion, std::size_t k, int row, Eigen::Index axis,
+                            double most_m) {
+  const auto at = [&](std::size_t j) { return motion.positions[j](row, axis); };
+  if (k < 2 || k + 2 >= motion.positions.size()) return at(k);
+  const double middle = median({at(k - 2), at(k - 1), at(k), at(k + 1), at(k + 2)});
+  const double between = (4 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6;
+  const bool off = std::abs(at(k) - middle) > most_m && std::abs(at(k) - between) > most_m;
+  return off ? middle : at(k);
+}
+
+/// The points `rows` in sample `k`.
+Points points_of_sample(const Motion& motion, std::size_t k, const std::vector<int>& rows,
+                        const std::vector<double>& jitter_m) {
+  Points at(Eigen::Index(rows.size()), 3);
+  for (std::size_t p = 0; p < rows.size(); ++p)
+    for (Eigen::Index axis = 0; axis < 3; ++axis)
+      at(Eigen::Index(p), axis) =
+          without_lone_reading(motion, k, rows[p], axis, kOffNeighbours_m + 6 * jitter_m[p]);
+  return at;
 }
 
 std::vector<double> jitter_of_each(const Motion& motion, const std::vector<int>& rows) {
@@ -44,6 +56,8 @@ std::vector<double> jitter_of_each(const Motion& motion, const std::vector<int>&
   if (jitter_m.empty()) return jitter_m;
   const double usual_m = median(jitter_m);
   for (double& own_m : jitter_m) own_m = std::max(own_m, usual_m);
+  if (motion.positions.size() < kFewSamples)
+    for (double& own_m : jitter_m) own_m = std::min(own_m, kMostJitterOfFew_m);
   return jitter_m;
 }
 
@@ -102,12 +116,10 @@ Indices largest_by_distances(const Eigen::MatrixXd& shares) {
 TrackedPoints tracked_points(const Motion& motion, const std::vector<int>& rows) {
   TrackedPoints out;
   out.jitter_m = jitter_of_each(motion, rows);
-  const Indices columns(rows.begin(), rows.end());
   const std::size_t count = motion.positions.size(),
                     step = std::max<std::size_t>(1, count / kMostRigidSamples);
   for (std::size_t k = 0; k < count; k += step)
-    out.positions.push_back(some_rows(motion.positions[k], columns));
-  replace_lone_readings(out);
+    out.positions.push_back(points_of_sample(motion, k, rows, out.jitter_m));
   const double sample_s = double(step) * (motion.time_s.back() - motion.time_s.front()) /
                           double(std::max<std::size_t>(1, count - 1));
   const std::size_t wanted = std::max(kFewestInMean, std::size_t(kShortestMean_s / sample_s));

@@ -57,7 +57,7 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
   }
   if (const auto unused = motion::still_points_beside_landmarks(tried.steady); !unused.empty())
     face.remarks.push_back(motion::unused_still_points_sentence(unused) +
-                           ", as they do not keep still in every recording");
+                           ", as not every recording shows them to be still");
   if (!still_points.names.empty())
     face.remarks.push_back(motion::still_points_sentence(still_points) +
                            "; the same in every recording; rigid_points of the visits changes "

@@ -8,6 +8,7 @@
 #include "hyperex/face/canonical_face.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/words_to_point.hpp"
+#include "hyperex/motion/rigid_set.hpp"
 #include "hyperex/motion/stabilise.hpp"
 #include "unit/motion/motions.hpp"
 
@@ -104,6 +105,25 @@ TEST(StillPoints, AreNotLostByOneWildReading) {
   Motion motion = nodding();
   motion.positions[7](1, 0) += 0.02;
   EXPECT_THAT(find_still_points(motion), ElementsAre("top", "left", "right", "nose"));
+}
+
+/// Its fourth differences look like jitter.
+TEST(StillPoints, OfFewSamplesAreNotThoseOfAQuickHead) {
+  const std::vector<Vec3> places = {{-0.07, 0.05, -0.02}, {0.07, 0.05, -0.02},  {-0.04, 0.08, 0.02},
+                                    {0.04, 0.08, 0.02},   {0, 0.09, 0.03},      {0, 0.12, -0.03},
+                                    {0.05, -0.02, 0.02},  {-0.05, -0.02, 0.02}, {0.03, 0, 0.03},
+                                    {-0.03, 0, 0.03}};
+  const Vec3 moves[] = {{2e-3, 5e-3, 0}, {-2e-3, 5e-3, 0}, {1e-3, 3e-3, 0}, {-1e-3, 3e-3, 0}};
+  const Motion motion = testing::sampled(
+      5, 0.25, {"a", "b", "c", "d", "e", "f", "cheek_1", "cheek_2", "cheek_3", "cheek_4"},
+      [&](double t, int p, int axis) {
+        const double share = std::sin(t * std::numbers::pi);
+        Vec3 at = places[std::size_t(p)];
+        if (p >= 6) at += share * moves[p - 6];
+        at = Eigen::AngleAxisd(0.4 * share, Vec3::UnitY()) * at;
+        return at[axis];
+      });
+  EXPECT_THAT(find_still_points(motion), ElementsAre("a", "b", "c", "d", "e", "f"));
 }
 
 TEST(StillPoints, ThreeAreTooFewToBeSure) {
@@ -224,6 +244,30 @@ TEST(StillPointsBesideLandmarks, AreAllFoundInNoise) {
       EXPECT_THAT(points_to_hold_the_head(landmarks_with(kOnBand, 0.01, none, noise_m, seed)).names,
                   ElementsAreArray(kBand))
           << noise_m << ", " << seed;
+}
+
+TEST(StillPointsBesideLandmarks, AreAllFoundWhereTheHeadNodsQuickly) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    const double angle = 0.15 * std::sin(4 * std::numbers::pi * motion.time_s[k]);
+    const Eigen::Matrix3d nod = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
+    motion.positions[k] = (motion.positions[k] * nod.transpose()).eval();
+  }
+  EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand));
+}
+
+/// Every tenth sample is judged: between two of them the head turns by up to 8 degrees.
+TEST(LargestRigidSet, OfALongRecordingIsFoundInNoise) {
+  std::mt19937 random(1);
+  std::normal_distribution<double> noise_m(0, 0.1e-3);
+  const Motion motion = testing::sampled(4000, 1 / 30.0, kBand, [&](double t, int p, int axis) {
+    const Vec3 at =
+        Eigen::AngleAxisd(0.2 * std::sin(2 * t), Vec3::UnitX()) * kOnBand[std::size_t(p)];
+    return at[axis] + noise_m(random);
+  });
+  const TrackedPoints tracked = tracked_points(motion, {0, 1, 2, 3, 4, 5});
+  EXPECT_EQ(tracked.positions.size(), 400u);
+  EXPECT_THAT(largest_rigid_set({tracked}, 0.2e-3).points, ElementsAre(0, 1, 2, 3, 4, 5));
 }
 
 TEST(StillPointsBesideLandmarks, NameTheOneThatMovesInNoise) {
