@@ -32,7 +32,7 @@ TEST(EstimateWords, AWideIntervalThatExcludesOneTellsTheSide) {
               StartsWith("zygomatic_L: this recording cannot tell (95 %: 0.00 to 1.04)."));
   EXPECT_THAT(
       said(ratio, "cheek_L / cheek_R", {1.2, 9}, false),
-      StartsWith("cheek_L / cheek_R: cheek_L is stiffer than cheek_R, but how much cannot be "
+      StartsWith("cheek_L / cheek_R: cheek_L is stiffer than cheek_R is, but how much cannot be "
                  "told (95 %: 1.20 to 9.00)."));
   EXPECT_THAT(said(young, "young", {4, 60}, false),
               StartsWith("young: this recording cannot tell"));

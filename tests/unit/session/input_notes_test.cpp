@@ -10,6 +10,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/metrics/baseline.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/plausible.hpp"
@@ -332,17 +333,14 @@ TEST_F(InputNotes, ComeAfterADefaultPointThatTheRecordingLacks) {
 }
 
 TEST_F(InputNotes, ListFiveOfManyPointsThatTheRecordingLacks) {
-  replace_in(folder_ / "scene.toml", "landmarks = \"face_landmarks.json\"\n", "");
   open(0, 16, [](motion::Motion& m) {
-    keep_mouth_and_headband(m);
-    for (int k = 0; k < 7; ++k) m.names[std::size_t(k)] = "mole_" + std::to_string(k);
+    for (const int k : metrics::driven_ibug_points())
+      rename_points(m, {{"ibug68_" + std::to_string(k), "mole_" + std::to_string(k)}});
   });
-  EXPECT_THAT(
-      test::refusal(
-          [&] { notes({R"(motion.rigid_points=["head_1", "head_2", "head_3", "head_4"])"}); }),
-      AllOf(HasSubstr("motion.csv: expected the points ibug68_"), HasSubstr(", and 2 more, which "),
-            HasSubstr("are missing (it has mole_0, mole_1, mole_2, mole_3, mole_4, and 8 more): "
-                      "record them, or choose")));
+  EXPECT_THAT(test::refusal([&] { notes({}); }),
+              AllOf(HasSubstr("motion.csv: expected the points ibug68_"),
+                    HasSubstr(", and 2 more, which "), HasSubstr("are missing (it has ibug68_0"),
+                    HasSubstr(" more): record them, or choose")));
 }
 
 TEST_F(InputNotes, WithoutPointsOfTheHeadSayWhatElseWorks) {
