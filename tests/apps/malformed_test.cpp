@@ -302,7 +302,7 @@ const std::vector<Fault> kMotions{
      {"motion.csv", "ibug68_8", "max_gap_s"}},
     {"WithoutDrivenPoints",
      [](const In& in) { rename_columns(in, "ibug68_48_", "mole_"); },
-     {"scene.toml", "drive.points", "ibug68_48"}},
+     {"motion.csv", "drive.points", "ibug68_48"}},
     {"WithoutNamesInCommon",
      [](const In& in) {
        write_cells(in, [](std::size_t row, const std::string& column, std::string& cell) {

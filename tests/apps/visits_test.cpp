@@ -156,7 +156,7 @@ TEST_F(Visits, LayTheSkullByLandmarksWhereABandHoldsTheHead) {
   std::map<std::string, std::vector<double>> of_visits;
   for (const auto& row : table.rows)
     if (row[1].starts_with("corner_up") || row[1].starts_with("corner_forward"))
-      of_visits[row[1]].push_back(std::stod(row[value]));
+      of_visits[row[1] + row[2]].push_back(std::stod(row[value]));
   ASSERT_EQ(of_visits.size(), 4u);
   for (const auto& [name, values] : of_visits) {
     ASSERT_EQ(values.size(), 2u) << name;

@@ -173,7 +173,7 @@ TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
       words({16.4, 16.0, 16.0, 0.2}),
       HasSubstr("left 16.4 to 16.0 mm, moves 0.4 mm less at its farthest (+- 0.2)" + on_the_way));
   EXPECT_THAT(words({9.98, 10.1, 10.1, 0.05}),
-              HasSubstr("moves 0.12 mm farther at its farthest (+- 0.05)" + on_the_way));
+              HasSubstr("0.12 mm farther at its farthest (+- 0.05)" + on_the_way));
   EXPECT_THAT(words({16.4, 16.0, 16.0, 0.5}),
               HasSubstr("undecided: 0.4 mm less at its farthest (+- 0.5)" + on_the_way));
   EXPECT_THAT(words(same), HasSubstr("left 6.7 mm, unchanged at its farthest" + on_the_way));
