@@ -62,7 +62,8 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
 /// (docs/fidelity.md). It never extends across the slit, and it always contains the nodes that
 /// carry the point. Its displacement is the field's, corrected so that the driven points end where
 /// they are driven: the mesh is linear between its nodes, and so it does not meet them by itself.
-/// Points that almost the same nodes carry are met in the mean alone, as two of a lid's edge may be.
+/// Points that almost the same nodes carry are met in the mean alone, as two of a lid's edge may
+/// be.
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
