@@ -57,8 +57,8 @@ std::string answer(const Finding& f, std::size_t recordings) {
   if (f.determined)
     return fmt::format("{}: {} (95 %: {}): {}.", f.name, value_words(f), range, meaning(f));
   if (shows_a_difference(f))
-    return fmt::format("{}: {}, but how much cannot be told (95 %: {}).", f.name, meaning(f),
-                       range);
+    return fmt::format("{}: {}, but by how much cannot be determined (95 %: {}).", f.name,
+                       meaning(f), range);
   return fmt::format("{}: {} cannot tell (95 %: {}).", f.name,
                      recordings == 1 ? "this recording" : "these recordings", range);
 }

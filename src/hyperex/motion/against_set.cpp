@@ -29,11 +29,11 @@ RigidResiduals rigid_residuals(const TrackedPoints& points, const Rows& set) {
   RigidResiduals out{points.positions.front(), points.positions};
   constexpr int rounds = 3;
   for (int round = 0; round < rounds; ++round) {
-    const Points held = some_rows(out.shape, set);
+    const Points held = out.shape(set, Eigen::all);
     Points sum = Points::Zero(out.shape.rows(), 3);
     for (std::size_t k = 0; k < points.positions.size(); ++k) {
       const Points& at = points.positions[k];
-      const Eigen::Isometry3d back = fit_rigid(some_rows(at, set), held);
+      const Eigen::Isometry3d back = fit_rigid(at(set, Eigen::all), held);
       out.off[k] =
           ((at * back.linear().transpose()).rowwise() + back.translation().transpose()) - out.shape;
       sum += out.off[k];
@@ -50,13 +50,13 @@ struct OwnDisplacement {
   Eigen::MatrixXd covariance;   ///< m x m, square metres, of one sample
 };
 
-/// Of all points. Those of the set carry the pose, too, and a residual shows a part of what they
-/// do.
+/// Computed for all points. Points of the set also determine the pose, so that their residuals show
+/// only a part of their own displacement.
 std::vector<OwnDisplacement> own_displacements(const Points& shape,
                                                const std::vector<double>& jitter_m,
                                                const Rows& set) {
   using Matrix6 = Eigen::Matrix<double, 6, 6>;
-  const Eigen::RowVector3d centre = some_rows(shape, set).colwise().mean();
+  const Eigen::RowVector3d centre = shape(set, Eigen::all).colwise().mean();
   std::vector<Eigen::Matrix<double, 3, 6>> arms;
   for (Eigen::Index p = 0; p < shape.rows(); ++p)
     arms.push_back(pose_derivative((shape.row(p) - centre).transpose()));
@@ -144,12 +144,6 @@ Eigen::MatrixXd window_means(const Eigen::MatrixXd& values, std::size_t width) {
         (sums.row(Eigen::Index(first + width)) - sums.row(Eigen::Index(first))) / double(width);
   }
   return means;
-}
-
-Points some_rows(const Points& all, const Rows& rows) {
-  Points some(Eigen::Index(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i) some.row(Eigen::Index(i)) = all.row(rows[i]);
-  return some;
 }
 
 std::vector<Against> all_against(const std::vector<TrackedPoints>& recordings, const Rows& set,

@@ -13,12 +13,9 @@ double rare_chi_square(double freedom);
 /// Means over `width` (1 to N) samples about each of N; at the ends the window lies within.
 Eigen::MatrixXd window_means(const Eigen::MatrixXd& values, std::size_t width);
 
-/// Those of the points, in this order.
-Points some_rows(const Points& all, const std::vector<Eigen::Index>& rows);
-
 /// How a point moves against a set.
 struct Against {
-  double share = 0;    ///< of what give and jitter allow; above 1: it moves
+  double share = 0;    ///< its residual divided by the bound of give and jitter; above 1: it moves
   double moves_m = 0;  ///< farthest from the first sample, in means of the shortest window
   /// By how much the mean square of all residuals falls where the point leaves the set.
   double relief_m2 = 0;

@@ -67,9 +67,9 @@ struct EndedInExpression {
 /// 0.2 s earlier by more than 0.3 of the farthest distance. An expression that is held for 0.3 s at
 /// its peak is complete. Measured: 0.10 in a real smile that ends at its peak, 0.20 in ramps of a
 /// rig that go evenly to their peak within a second, 0.5 in a smile that breaks off at a third of
-/// its way. A slow or nearly finished expression is not told from a complete one. `motion`: without
-/// head pose, the first sample at rest. Nothing for a motion shorter than 0.6 s or with samples
-/// more than 0.1 s apart (median).
+/// its way. A slow or nearly finished expression cannot be distinguished from a complete one.
+/// `motion`: without head pose, the first sample at rest. Nothing for a motion shorter than 0.6 s
+/// or with samples more than 0.1 s apart (median).
 std::optional<EndedInExpression> ended_in_expression(const Motion& motion);
 
 }  // namespace hyperex::motion

@@ -19,7 +19,7 @@ constexpr double kShortestMean_s = 0.2;
 constexpr std::size_t kFewestInMean = 5;
 /// A reading farther from its neighbours than this, and six times the jitter, is off them.
 constexpr double kOffNeighbours_m = 0.5e-3;
-/// Of so few samples the jitter cannot be told from the motion: no more of it counts.
+/// With fewer samples jitter and motion cannot be separated, and the estimated jitter is limited.
 constexpr std::size_t kFewSamples = 20;
 constexpr double kMostJitterOfFew_m = 0.1e-3;
 
@@ -61,7 +61,7 @@ std::vector<double> jitter_of_each(const Motion& motion, const std::vector<int>&
   return jitter_m;
 }
 
-/// How much the distance of each pair changes, as a share of what give and jitter allow.
+/// The change of the distance of each pair, divided by the bound of give and jitter.
 Eigen::MatrixXd distance_shares(const std::vector<TrackedPoints>& recordings, double give_m) {
   const auto count = Eigen::Index(recordings.front().jitter_m.size());
   Eigen::MatrixXd shares = Eigen::MatrixXd::Zero(count, count);
@@ -156,8 +156,8 @@ RigidSet largest_rigid_set(const std::vector<TrackedPoints>& recordings, double 
       if (share(p) > 1 || dropped[std::size_t(p)]) out.left_out.push_back(p);
     }
     if (wanted.empty()) break;
-    set.insert(std::ranges::upper_bound(set, *std::ranges::min_element(wanted, {}, share)),
-               *std::ranges::min_element(wanted, {}, share));
+    const Eigen::Index stillest = *std::ranges::min_element(wanted, {}, share);
+    set.insert(std::ranges::upper_bound(set, stillest), stillest);
   }
   return out;
 }

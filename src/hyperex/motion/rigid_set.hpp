@@ -18,7 +18,7 @@ struct TrackedPoints {
 /// each side is replaced by the median of the five, where a head that turns quickly does not
 /// explain it. The jitter of a point is its own (jitter_of_motion()), at least the median of all
 /// points. Of fewer than 20 samples it is that of jitter_of_differences(), at most 0.1 mm: there
-/// jitter cannot be told from motion.
+/// jitter and motion cannot be separated.
 TrackedPoints tracked_points(const Motion& motion, const std::vector<int>& rows);
 
 /// Points that keep still against each other, and how the others move against them.

@@ -147,9 +147,7 @@ Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eig
 }
 
 bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
-  Points at(Eigen::Index(rows.size()), 3);
-  for (std::size_t i = 0; i < rows.size(); ++i)
-    at.row(Eigen::Index(i)) = motion.positions.front().row(rows[i]);
+  const Points at = motion.positions.front()(rows, Eigen::all);
   return spread_off_line(at) < kLeastStillSpread;
 }
 

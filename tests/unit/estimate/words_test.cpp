@@ -26,14 +26,14 @@ TEST(EstimateWords, AWideIntervalThatExcludesOneTellsTheSide) {
   using enum Finding::Kind;
   EXPECT_THAT(
       said(gain, "zygomatic_L", {0, 0.94}, false),
-      StartsWith("zygomatic_L: acts less strongly than its counterpart, but how much cannot "
-                 "be told (95 %: 0.00 to 0.94). Largest part"));
+      StartsWith("zygomatic_L: acts less strongly than its counterpart, but by how much cannot "
+                 "be determined (95 %: 0.00 to 0.94). Largest part"));
   EXPECT_THAT(said(gain, "zygomatic_L", {0, 1.04}, false),
               StartsWith("zygomatic_L: this recording cannot tell (95 %: 0.00 to 1.04)."));
   EXPECT_THAT(
       said(ratio, "cheek_L / cheek_R", {1.2, 9}, false),
-      StartsWith("cheek_L / cheek_R: cheek_L is stiffer than cheek_R is, but how much cannot be "
-                 "told (95 %: 1.20 to 9.00)."));
+      StartsWith("cheek_L / cheek_R: cheek_L is stiffer than cheek_R is, but by how much cannot be "
+                 "determined (95 %: 1.20 to 9.00)."));
   EXPECT_THAT(said(young, "young", {4, 60}, false),
               StartsWith("young: this recording cannot tell"));
   EXPECT_THAT(said(gain, "zygomatic_L", {0.2, 0.6}, true),

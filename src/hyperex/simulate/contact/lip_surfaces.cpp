@@ -25,12 +25,19 @@ Box grown(const Box& box, double by) {
   return {box.min().array() - by, box.max().array() + by};
 }
 
+/// Two axes across a direction of unit length and the direction itself, right-handed, as columns.
+Eigen::Matrix3d axes_along(const Vec3& forward) {
+  Eigen::Matrix3d axes;
+  axes.col(0) = forward.unitOrthogonal();
+  axes.col(1) = forward.cross(axes.col(0));
+  axes.col(2) = forward;
+  return axes;
+}
+
 /// A box about points as seen along a direction.
 class Outline {
  public:
-  Outline(const Points& points, const Vec3& forward) {
-    axes_ << forward.unitOrthogonal(), Vec3::Zero(), forward;
-    axes_.col(1) = forward.cross(axes_.col(0));
+  Outline(const Points& points, const Vec3& forward) : axes_(axes_along(forward)) {
     for (const Vec3& p : points.rowwise()) box_.extend(axes_.transpose() * p);
   }
   /// Whether who looks forward from `p` has some of the box before them.
@@ -49,10 +56,7 @@ class Outline {
 class ForwardRays {
  public:
   ForwardRays(const Points& points, const Triangles& triangles, Index count, const Vec3& forward)
-      : triangles_(triangles) {
-    axes_ << forward.unitOrthogonal(), Vec3::Zero(), forward;
-    axes_.col(1) = forward.cross(axes_.col(0));
-    seen_ = points * axes_;
+      : triangles_(triangles), axes_(axes_along(forward)), seen_(points * axes_) {
     boxes_.resize(std::size_t(count));
     for (Index f = 0; f < count; ++f)
       for (const int v : triangles.row(f)) boxes_[std::size_t(f)].extend(seen_.row(v).transpose());

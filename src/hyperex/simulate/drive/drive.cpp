@@ -103,10 +103,10 @@ Eigen::MatrixXd one_place_means(const Points& points) {
   return mean;
 }
 
-/// The inverse of a matrix of inner products, bounded. A mode counts in full where the skin that
-/// carries the points tells them apart as it does at one_place_m. Below that it counts less, in
-/// proportion. Around holes the simulated surface ends before the skin does, so that points well
-/// apart may have the same nodes. To meet each of them would tear the skin around.
+/// A regularised inverse of a Gram matrix. An eigenvalue is inverted as it is where it exceeds that
+/// of two points one_place_m apart. The inverse of a smaller one falls to 0 with it. Around holes
+/// the simulated surface ends before the skin does, so that points well apart may be carried by the
+/// same nodes. Meeting each of them exactly would tear the skin around them.
 Eigen::MatrixXd bounded_inverse(const Eigen::MatrixXd& gram) {
   const double least = 1 - wendland(one_place_m);
   const SymmetricModes modes = symmetric_modes(gram);

@@ -165,8 +165,7 @@ std::string reason_of(const FarthestPoint& point, const SimulationOptions& optio
   if (point.shared >= kSameNodes)
     return fmt::format(
         "the tissue's mesh has the same nodes for {} and {}, {:.1f} mm from it: such points are "
-        "met "
-        "only on average",
+        "met only on average",
         point.name, face::name_in_words(point.neighbour), 1e3 * point.neighbour_m);
   if (touched || !by_forces) return "";
   if (changes_muscles(options.muscles))
