@@ -9,6 +9,7 @@ the unit that follows them. Of the template, a row has one entry for each muscle
 name alone where the key is true. Then the table is changed, one value at a time, and each change must be seen; so must
 a row that is gone.
 """
+import functools
 import re
 import sys
 import tomllib
@@ -50,6 +51,7 @@ def of_struct(text, struct):
     return found.group() if found else ""
 
 
+@functools.cache  # the page is checked some 200 times, the code stays as it is
 def numbers_in_code(text, struct, name):
     found = re.search(rf"\b{name}(?:\[\d*\])?\s*=?\s*(\{{[^}}]*\}}|{NUMBER})", of_struct(text, struct))
     return [value(n) for n in re.findall(NUMBER, found.group(1))] if found else []
