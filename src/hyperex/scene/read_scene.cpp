@@ -177,6 +177,20 @@ void SceneReader::settle_drive() {
   if (variants_.is_array() && drive_is_open()) scene.drive.by = simulate::DriveBy::muscles;
 }
 
+void SceneReader::settle_contact() {
+  const json finite = word_of(simulate::Strain::finite);
+  const auto given = given_.find("tissue.strain");
+  bool any_finite = given != given_.end() && given->second.value == finite;
+  if (variants_.is_array())
+    for (const json& block : variants_) {
+      if (!block.is_object()) continue;
+      const auto changes = changes_of(block);
+      const auto strain = changes.find("tissue.strain");
+      any_finite = any_finite || (strain != changes.end() && strain->second == finite);
+    }
+  scene.contact.lips = !any_finite;
+}
+
 void SceneReader::fill() {
   for (const Key& key : keys()) {
     const auto found = given_.find(key.name);
@@ -230,6 +244,7 @@ SceneReader read(const fs::path& file, const std::vector<Override>& overrides,
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
     reader.settle_drive();
+    reader.settle_contact();
     reader.fill();
     reader.settle_muscles();
     reader.check_together();

@@ -29,9 +29,11 @@ void FaceSession::Impl::finish_search() {
 /// After base was run, and again once its twin is known: notes that were reported before are not
 /// reported again.
 void FaceSession::Impl::note_base() {
+  simulate::ContactOptions asked_for = scene.contact;
+  asked_for.lips = asked_for.lips && scene.origins.contains("contact.lips");
   const std::vector<Note> before = std::exchange(
       base_notes, notes_on_contact_and_elements(simulation.report, simulation.performance,
-                                                scene.contact, session_options.frame_words));
+                                                asked_for, session_options.frame_words));
   append(base_notes, gaze_notes(simulation.performance, backing ? &*backing : nullptr));
   append(base_notes, run_warnings(simulation.report, simulation.performance, scene.contact,
                                   session_options.frame_words));

@@ -18,7 +18,7 @@ inline nlohmann::json other_value(const Key& key) {
   const nlohmann::json standard = key.get(Scene{});
   switch (key.kind) {
     case Kind::flag:
-      return !standard.get<bool>();
+      return !default_of(key).get<bool>();
     case Kind::integer:
       return standard.get<int>() + 1;
     case Kind::number: {
