@@ -71,6 +71,34 @@ TEST_F(NewCommand, ItsVariantIsLeftOutOfTheCheckAsOfARun) {
   EXPECT_THAT(checked.out, HasSubstr("on two idle processors\n"));
 }
 
+/// A gain on a muscle that rests would answer nothing.
+TEST_F(NewCommand, SuggestsMusclesThatASmileUses) {
+  ASSERT_EQ(
+      call("new embedded '" HYPEREX_SOURCE_DIR "/examples/smile_arkit.csv' --out me.toml").status,
+      0);
+  const std::string scene = read_file(in("me.toml")), words = "; one muscle: ";
+  const auto at = scene.find(words);
+  ASSERT_NE(at, std::string::npos) << scene;
+  const std::string muscle =
+      scene.substr(at + words.size(), scene.find('\n', at) - at - words.size());
+  put(in("me.toml"),
+      scene + "\n[[variant]]\nname = \"one muscle\"\nmuscles.gain = { " + muscle + " = 0.3 }\n");
+  const Outcome run = call(
+      "run me.toml --out out --set output.vtu=false --set output.glb=false --set "
+      "output.report=false");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const nlohmann::json found = summary();
+  for (const auto& remark : found["remarks"])
+    EXPECT_THAT(remark["id"].get<std::string>(), testing::Not(HasSubstr("hardly_used")))
+        << remark["text"];
+  const nlohmann::json& table = found["variants"]["table"];
+  ASSERT_EQ(table.size(), 3u);
+  for (const std::size_t variant : {1, 2})
+    EXPECT_LT(table[variant]["commissure_R_mm"].get<double>(),
+              0.95 * table[0]["commissure_R_mm"].get<double>())
+        << variant;
+}
+
 TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
   std::filesystem::create_directory(in("scenes"));
   ASSERT_EQ(call("new face.ply embedded --out scenes/me.toml").status, 0);

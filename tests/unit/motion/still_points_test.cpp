@@ -171,6 +171,15 @@ TEST(UnsteadyPoints, AreAllWhereNoTwoAgree) {
   EXPECT_THAT(unsteady(motion, {"a", "b", "c"}), ElementsAre("a", "b", "c"));
 }
 
+/// Both change one distance too much. The second has changed that from the first point, too.
+TEST(UnsteadyPoints, OfTwoThatPartIsTheOneThatAlsoLeavesAThird) {
+  const Motion motion = testing::sampled(21, 0.05, {"a", "b", "c"}, [](double t, int p, int axis) {
+    if (axis != 0) return 0.0;
+    return p == 1 ? 0.02 - 1.5e-3 * t : p == 2 ? 0.05 + 1e-3 * t : 0.0;
+  });
+  EXPECT_THAT(unsteady(motion, {"a", "b", "c"}), ElementsAre("b"));
+}
+
 TEST(UnsteadyPoints, AreNotThoseThatAreReadBadly) {
   Motion motion = nodding();
   motion.positions[7](3, 0) += 0.02;
@@ -268,6 +277,30 @@ TEST(LargestRigidSet, OfALongRecordingIsFoundInNoise) {
   const TrackedPoints tracked = tracked_points(motion, {0, 1, 2, 3, 4, 5});
   EXPECT_EQ(tracked.positions.size(), 400u);
   EXPECT_THAT(largest_rigid_set({tracked}, 0.2e-3).points, ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+/// Two points slip by less than their distances show. They turn the pose of the set, so that four
+/// seem to move: the two, and two that are still and would be lost if they went first.
+TEST(LargestRigidSet, FirstLosesThePointWithoutWhichTheOthersAreStillest) {
+  TrackedPoints tracked;
+  tracked.jitter_m.assign(kOnBand.size(), 0.5e-3);
+  tracked.shortest = 5;
+  for (int k = 0; k < 400; ++k) {
+    Points at(Eigen::Index(kOnBand.size()), 3);
+    for (std::size_t p = 0; p < kOnBand.size(); ++p)
+      at.row(Eigen::Index(p)) = kOnBand[p].transpose();
+    if (k >= 200) {
+      at(3, 0) += 2e-3;
+      at(5, 2) += 1.5e-3;
+    }
+    tracked.positions.push_back(at);
+  }
+  const RigidSet set = largest_rigid_set({tracked}, 0.2e-3);
+  EXPECT_THAT(set.points, ElementsAre(0, 1, 2, 4));
+  EXPECT_THAT(set.left_out, ElementsAre(3, 5));
+  ASSERT_EQ(set.moves_m.size(), kOnBand.size());
+  EXPECT_NEAR(set.moves_m[3], 2e-3, 1e-6);
+  EXPECT_NEAR(set.moves_m[5], 1.5e-3, 1e-6);
 }
 
 TEST(StillPointsBesideLandmarks, NameTheOneThatMovesInNoise) {
