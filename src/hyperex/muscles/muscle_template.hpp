@@ -34,7 +34,7 @@ struct TemplateMuscle {
   MuscleKind kind = MuscleKind::pull;
   MuscleLip lip = MuscleLip::both;
   bool straight = false;  ///< runs straight between its places, not along the skin
-  bool jaw = false;       ///< its origin moves with the mandible
+  bool jaw = false;       ///< begins on the mandible, on which it is laid where its shape is known
   bool tone = false;      ///< its activation may fall below that at rest
   bool cheek = false;     ///< it moves the cheek as much as the lips: an elevator or a retractor
   double readiness = 1;   ///< prior sigma of its activation, relative to that of other muscles
