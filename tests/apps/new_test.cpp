@@ -106,8 +106,8 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
                                   "head_6, which keep still against each other"));
   // A scene that does not name them is told so.
   const std::string sentence =
-      "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
-      "as points of the skull do, and are not used; ";
+      "while head_1, head_2, head_3, head_4, head_5, head_6 keep still against each other, as "
+      "points of the skull do, and are not used; ";
   EXPECT_THAT(call("check scene.toml").out,
               HasSubstr(sentence + "name them in motion.rigid_points"));
   put(in("v.toml"),

@@ -188,7 +188,7 @@ CommonStill still_among(const std::vector<const Motion*>& motions, const CommonP
   return out;
 }
 
-/// How many of `count` points must keep their distances.
+/// How many of `count` points must keep still.
 std::size_t enough_of(std::size_t count) {
   return count == 3 ? 3 : std::clamp((count + 1) / 2, kLeastStillPoints, kMoreThanChance);
 }

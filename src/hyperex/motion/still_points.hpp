@@ -30,7 +30,7 @@ inline constexpr double kStillPoints_m = 1e-3;
 /// the head pose.
 bool has_pose_points(const Motion& motion);
 
-/// A point that does not keep its distances from others, and the greatest change of one of them.
+/// A point that does not keep still against others, and how far it moves.
 struct UnsteadyPoint {
   std::string name;
   double change_m = 0;

@@ -177,9 +177,9 @@ std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion
   add_rest(named, moving.size());
   return make_warning(
       "head.points_not_rigid",
-      fmt::format("points of motion.rigid_points do not keep their distances from each other, as "
-                  "points fixed to the skull do: {}; name points in their place that do not move "
-                  "with the expression, or none",
+      fmt::format("points of motion.rigid_points do not keep still against each other, as points "
+                  "of the skull do: {}; name points in their place that do not move with the "
+                  "expression, or none",
                   fmt::join(named, ", ")));
 }
 

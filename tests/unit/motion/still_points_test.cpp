@@ -369,8 +369,10 @@ TEST(StillPointsBesideLandmarks, OfRealRecordingsAreTheBandAlone) {
 }
 
 TEST(StillPoints, AMissingPoseProposesThem) {
-  testing::expect_refused([] { stabilise(nodding()); },
-                          {"rigid_points", "as points of the skull do: top, left, right, nose"});
+  testing::expect_refused(
+      [] { stabilise(nodding()); },
+      {"rigid_points",
+       "these keep still against each other, as points of the skull do: top, left, right, nose"});
   EXPECT_FALSE(has_pose_points(nodding()));
 }
 
