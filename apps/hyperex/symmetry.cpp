@@ -18,6 +18,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
@@ -75,6 +76,17 @@ std::optional<session::RecordedJitter> jitter_of_run(const fs::path& folder) {
       1e-3 * jitter_mm, true,
       fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
                   jitter_mm)};
+}
+
+/// The folder of the run that wrote this motion.csv, for the scene or for a variant; empty: no run
+/// did.
+fs::path run_that_wrote(const fs::path& motion) {
+  if (motion.filename() != "motion.csv") return {};
+  const fs::path folder = fs::absolute(motion).lexically_normal().parent_path(),
+                 variants = folder.parent_path();
+  const bool of_variant =
+      variants.filename() == "variants" && fs::exists(variants.parent_path() / "summary.json");
+  return of_variant || fs::exists(folder / "summary.json") ? folder : fs::path();
 }
 
 /// The number given by --jitter-mm; nothing for "auto".
@@ -179,14 +191,26 @@ void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
     io::write_ply(options.map_ply, moved, frames.unit, {{"asymmetry_mm", map_mm}});
 }
 
-/// Writes the requested files and prints the remaining results.
-void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all,
-            const session::RecordedJitter& jitter, const motion::StabilisedMotion& steady) {
+/// Says whose sides are measured. `run`: its folder where they are those of a simulated face.
+void report_whose_sides(const fs::path& run) {
+  if (!run.empty())
+    std::cout << fmt::format(
+        "the sides are those of the face that the run in {} simulated, where a side that is not "
+        "recorded moves as is usual; for recorded sides give the recording itself\n",
+        printable(run.filename().string()));
+}
+
+/// Writes the requested files and prints the remaining results. `run`: as above.
+void report(const SymmetryOptions& options, const fs::path& run,
+            const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
+            const motion::StabilisedMotion& steady) {
+  report_whose_sides(run);
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
+  const std::string whose = run.empty() ? options.motion.filename().string()
+                                        : "the simulated face of " + run.filename().string();
   if (!options.picture.empty())
-    render::write_png(options.picture,
-                      draw(all, "Symmetry of " + options.motion.filename().string()));
+    render::write_png(options.picture, draw(all, "Symmetry of " + whose));
   if (!options.excursions.empty())
     metrics::write_excursions_csv(options.excursions, all.excursions);
   if (!options.out.empty()) metrics::write_symmetry_csv(options.out, all);
@@ -230,7 +254,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, all, jitter, stabilised);
+  report(options, {}, all, jitter, stabilised);
 }
 
 /// Throws InputError for points that hold the head's pose where it is not estimated.
@@ -334,7 +358,8 @@ void run(const SymmetryOptions& options) {
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
   all.excursions = judged_excursions(options, stabilised, jitter);
-  report(options, all, jitter, stabilised);
+  const fs::path simulated = options.rig.empty() ? run_that_wrote(file) : fs::path();
+  report(options, simulated, all, jitter, stabilised);
 }
 
 /// Options that concern a folder of surfaces.
@@ -377,8 +402,9 @@ void add_symmetry(CLI::App& program) {
       "asymmetry (docs/symmetry.md). No medical device.");
   command
       ->add_option("MOTION", options->motion,
-                   "Named points over time, CSV or TRC; a run's folder; or a folder of PLY or OBJ "
-                   "files, one per frame, the first at rest")
+                   "Named points over time, CSV or TRC; a run's folder, for the sides of the face "
+                   "that it simulated; or a folder of PLY or OBJ files, one per frame, the first "
+                   "at rest")
       ->required();
   command->add_option("--rig", options->rig,
                       "A glTF or GLB file with morph targets of ARKit's names: MOTION has their "
