@@ -150,8 +150,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
       throw InputError(error.sentence("--rigid-points"));
     }
   }
-  const motion::StillPoints still = motion::points_to_hold_the_head(motion);
-  motion::TriedPose tried = motion::try_stabilise(motion, still.names, "--rigid-points");
+  motion::StillPoints still = motion::points_to_hold_the_head(motion);
+  motion::TriedPose tried = still.by_landmarks.empty()
+                                ? motion::try_stabilise(motion, still.names, "--rigid-points")
+                                : motion::TriedPose{std::move(still.by_landmarks.front()), ""};
   if (!tried.why_not.empty())
     std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
   else

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
@@ -130,6 +131,30 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
        {call("check me.toml --set scan.landmarks=face_landmarks.json").out,
         call("symmetry motion.csv --jitter-mm 0 --rigid-points head_1,head_2,head_3").err})
     EXPECT_THAT(used, testing::Not(HasSubstr("are not used")));
+}
+
+TEST_F(NewCommand, AShortGapCostsNoMarkerOfTheBand) {
+  const std::string band =
+      "rigid_points = [\"head_1\", \"head_2\", \"head_3\", \"head_4\", \"head_5\", "
+      "\"head_6\"]";
+  const auto write = [&](bool loses_a_sample) {
+    write_opening(in(""), 0, 41, [&](motion::Motion& m) {
+      add_headband(m);
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t k = 20; k < 23; ++k)
+        m.positions[k].row(m.index_of("head_3")).setConstant(nan);
+      if (loses_a_sample) m.positions[10].setConstant(nan);
+    });
+  };
+  write(true);
+  ASSERT_EQ(call("new face.ply motion.csv --out lost.toml").status, 0);
+  EXPECT_THAT(read_file(in("lost.toml")), HasSubstr(band));
+  EXPECT_EQ(call("check lost.toml").status, 0);
+  write(false);
+  ASSERT_EQ(call("new face.ply motion.csv --out me.toml").status, 0);
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr(band));
+  EXPECT_THAT(call("symmetry motion.csv").err,
+              HasSubstr("the head is held by head_1, head_2, head_3, head_4, head_5, head_6, "));
 }
 
 TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
