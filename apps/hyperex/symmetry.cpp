@@ -37,6 +37,7 @@
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
+#include "hyperex/session/keyframes.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
@@ -343,7 +344,9 @@ void run(const SymmetryOptions& options) {
   auto [motion, warnings] = session::cleaned_recording(
       motion::until(read(options, file, unit), options.end_s, "--end-s"), readings);
   report_guessed_unit(motion);
-  const std::vector<Note> checked = session::check_alone(motion);
+  if (const auto keyframes = session::keyframes_note(motion, readings))
+    std::cerr << keyframes->text << '\n';
+  const std::vector<Note> checked = session::check_alone(motion, readings);
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
@@ -352,7 +355,7 @@ void run(const SymmetryOptions& options) {
     add(warnings, session::check_steady(steady, readings));
     append(warnings, extent_warnings(options, run_folder, steady));
   }
-  add(warnings, session::coarse_warning(motion));
+  add(warnings, session::coarse_warning(motion, readings));
   append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);

@@ -298,6 +298,13 @@ TEST_F(NewCommand, RefusesARecordingOfOneSampleAndWarnsOfAFew) {
   EXPECT_THAT(call("check few.toml").out,
               testing::AllOf(HasSubstr("warning: the recording has 2 samples"),
                              HasSubstr("but one warning")));
+  // Keyframes are few by intention.
+  put(in("keys.csv"), first + "0.3,0.5\n1,0\n");
+  EXPECT_THAT(call("new embedded keys.csv --out keys.toml").err,
+              testing::Not(HasSubstr("3 samples")));
+  EXPECT_THAT(call("check keys.toml").out,
+              testing::AllOf(HasSubstr("3 rows are taken for keyframes"),
+                             testing::Not(HasSubstr("but one warning"))));
 }
 
 TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {
