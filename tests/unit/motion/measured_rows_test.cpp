@@ -26,7 +26,7 @@ TEST(MeasuredRows, AGapLastsFromReadingToReading) {
   EXPECT_NEAR(longest_gap_s(motion, 1), 0.3, 1e-12);
   EXPECT_NEAR(longest_gap_s(motion, 2), 0.2, 1e-12) << "to the end";
   EXPECT_EQ(longest_gap_s(motion, 3), 0);
-  EXPECT_THAT(samples_with_all(motion, {0, 1, 2, 3}), ElementsAre(2, 3, 5, 6, 9));
+  EXPECT_THAT(samples_with_all(motion, {0, 1, 2, 3}), ElementsAre(2u, 3u, 5u, 6u, 9u));
   EXPECT_EQ(longest_gap_s(square([](int, int p) { return p == 0; }), 0),
             std::numeric_limits<double>::infinity());
 }

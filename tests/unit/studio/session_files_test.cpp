@@ -471,7 +471,7 @@ TEST_F(StudioSession, VisitsHoldTheHeadByThePointsThatTheUserChose) {
   };
   const json band = {"head_1", "head_2", "head_3", "head_4"};
   drop("visit1.csv", opening_with_band(12, 0.01, "head_"));
-  set({{"motion.rigid_points", band}}, 0);
+  EXPECT_FALSE(set({{"motion.rigid_points", band}}, 0).contains("error"));
   drop("visit2.csv", opening_with_band(8, -0.01, "head_"));
   const auto by_landmarks = visits::summary(visits::compare_visits(file));
   file.rigid_points = band.get<std::vector<std::string>>();
@@ -479,7 +479,7 @@ TEST_F(StudioSession, VisitsHoldTheHeadByThePointsThatTheUserChose) {
   ASSERT_NE(by_band, by_landmarks);
   EXPECT_EQ(compared()["sentences"].get<std::vector<std::string>>(), by_band)
       << "chosen for the recording before";
-  set({{"motion.rigid_points", band}}, 0);
+  EXPECT_FALSE(set({{"motion.rigid_points", band}}, 0).contains("error"));
   EXPECT_EQ(compared()["sentences"].get<std::vector<std::string>>(), by_band)
       << "chosen for the present one";
   drop("visit3.csv", opening_with_band(8, 0.01, "hat_"));
