@@ -59,7 +59,8 @@ TEST_F(OtherRecordings, ACornerThatIsNotRecordedHasNoFigure) {
   EXPECT_EQ(curves.rows.back()[3], "") << curves.names[3];
   // The run's folder has both sides of the simulated face, and is said to.
   const std::string variant = summary()["variants"]["table"][1]["folder"];
-  for (const std::string& file : {std::string("out"), "out/" + variant, "out/motion.csv"}) {
+  for (const std::string& file :
+       {std::string("out"), "out/" + variant, std::string("out/motion.csv")}) {
     const Outcome simulated = call("symmetry " + file);
     EXPECT_EQ(simulated.status, 0) << simulated.err;
     EXPECT_THAT(simulated.out, HasSubstr("the sides are those of the face that the run in "));
