@@ -295,8 +295,8 @@ std::optional<Note> coarse_warning(const motion::Motion& m, Readings readings) {
 
 std::optional<Note> short_warning(const std::vector<double>& time_s, Readings readings) {
   constexpr std::size_t least = 5;
-  if (time_s.size() < 2 || time_s.size() >= least || have_keyframes(time_s, readings))
-    return std::nullopt;
+  if (time_s.size() < 2 || time_s.size() >= least) return std::nullopt;
+  if (have_keyframes(time_s, readings)) return std::nullopt;
   return make_warning(
       "recording.short",
       fmt::format("the recording has {} samples in {:.3g} s: what the face does between them is "
