@@ -57,6 +57,18 @@ TEST_F(OtherRecordings, ACornerThatIsNotRecordedHasNoFigure) {
   EXPECT_EQ(curves.rows.back()[1], "") << curves.names[1];
   EXPECT_NE(curves.rows.back()[2], "") << curves.names[2];
   EXPECT_EQ(curves.rows.back()[3], "") << curves.names[3];
+  // The run's folder has both sides of the simulated face, and is said to.
+  const std::string variant = summary()["variants"]["table"][1]["folder"];
+  for (const std::string& file :
+       {std::string("out"), "out/" + variant, std::string("out/motion.csv")}) {
+    const Outcome simulated = call("symmetry " + file);
+    EXPECT_EQ(simulated.status, 0) << simulated.err;
+    EXPECT_THAT(simulated.out, HasSubstr("the sides are those of the face that the run in "));
+    EXPECT_THAT(simulated.out, HasSubstr("; for recorded sides give the recording itself\n"));
+  }
+  const Outcome recorded = call("symmetry motion.csv");
+  EXPECT_EQ(recorded.status, 0) << recorded.err;
+  EXPECT_THAT(recorded.out, testing::Not(HasSubstr("the sides are those")));
 }
 
 /// A marker between the lips goes half the way of the lower one. Were it driven, it would draw the

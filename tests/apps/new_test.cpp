@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
@@ -134,8 +135,8 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
                                   "head_6, which keep still against each other"));
   // A scene that does not name them is told so.
   const std::string sentence =
-      "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
-      "as points of the skull do, and are not used; ";
+      "while head_1, head_2, head_3, head_4, head_5, head_6 keep still against each other, as "
+      "points of the skull do, and are not used; ";
   EXPECT_THAT(call("check scene.toml").out,
               HasSubstr(sentence + "name them in motion.rigid_points"));
   put(in("v.toml"),
@@ -158,6 +159,30 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
        {call("check me.toml --set scan.landmarks=face_landmarks.json").out,
         call("symmetry motion.csv --jitter-mm 0 --rigid-points head_1,head_2,head_3").err})
     EXPECT_THAT(used, testing::Not(HasSubstr("are not used")));
+}
+
+TEST_F(NewCommand, AShortGapCostsNoMarkerOfTheBand) {
+  const std::string band =
+      "rigid_points = [\"head_1\", \"head_2\", \"head_3\", \"head_4\", \"head_5\", "
+      "\"head_6\"]";
+  const auto write = [&](bool loses_a_sample) {
+    write_opening(in(""), 0, 41, [&](motion::Motion& m) {
+      add_headband(m);
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t k = 20; k < 23; ++k)
+        m.positions[k].row(m.index_of("head_3")).setConstant(nan);
+      if (loses_a_sample) m.positions[10].setConstant(nan);
+    });
+  };
+  write(true);
+  ASSERT_EQ(call("new face.ply motion.csv --out lost.toml").status, 0);
+  EXPECT_THAT(read_file(in("lost.toml")), HasSubstr(band));
+  EXPECT_EQ(call("check lost.toml").status, 0);
+  write(false);
+  ASSERT_EQ(call("new face.ply motion.csv --out me.toml").status, 0);
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr(band));
+  EXPECT_THAT(call("symmetry motion.csv").err,
+              HasSubstr("the head is held by head_1, head_2, head_3, head_4, head_5, head_6, "));
 }
 
 TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
@@ -301,6 +326,13 @@ TEST_F(NewCommand, RefusesARecordingOfOneSampleAndWarnsOfAFew) {
   EXPECT_THAT(call("check few.toml").out,
               testing::AllOf(HasSubstr("warning: the recording has 2 samples"),
                              HasSubstr("but one warning")));
+  // Keyframes are few by intention.
+  put(in("keys.csv"), first + "0.3,0.5\n1,0\n");
+  EXPECT_THAT(call("new embedded keys.csv --out keys.toml").err,
+              testing::Not(HasSubstr("3 samples")));
+  EXPECT_THAT(call("check keys.toml").out,
+              testing::AllOf(HasSubstr("3 rows are taken for keyframes"),
+                             testing::Not(HasSubstr("but one warning"))));
 }
 
 TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {

@@ -86,7 +86,8 @@ constexpr NoteKind kKinds[] = {
     "One corner of the mouth is recorded, and the other is not. A run simulates that side from what "
     "is usual; it gives no figures of that corner, and none that compare the two."),
   warning("recording.coarse", "motion.file",
-    "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
+    "The samples are more than 0.1 s apart: quicker motions between two samples are lost. Not said "
+    "of keyframes (recording.keyframes)."),
   warning("recording.short", "motion.file",
     "The recording has fewer than five samples: what the face does between them is interpolated."),
   warning("recording.shapes_lost", "motion.arkit",
@@ -197,6 +198,9 @@ constexpr NoteKind kKinds[] = {
   note("recording.source", "motion.recording", "What the camera or the video reader reports."),
   note("recording.unit", "motion.unit", "The recording's unit, and how it is known."),
   note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
+  note("recording.keyframes", "motion.arkit",
+    "A table of weights has rows more than 0.1 s apart (median) at times that no device would "
+    "sample at: uneven, or more than 0.5 s apart within 33 s. They are taken for keyframes."),
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
     "The face is not at rest where the run begins in the recording: the run leads face and eyes "

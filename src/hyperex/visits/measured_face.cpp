@@ -41,11 +41,14 @@ std::string with_file_name(std::string text, const std::string& path) {
 
 /// The motion without head pose, and the pose's errors where it was taken out.
 motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
-                                      const motion::StillPoints& still_points, MeasuredFace& face) {
+                                      const motion::StillPoints& still_points,
+                                      std::size_t recording, MeasuredFace& face) {
   motion::TriedPose tried;
   if (!visits.rigid_points.empty())
     tried.steady =
         motion::stabilise(motion, {.rigid_points = motion::own_names(motion, visits.rigid_points)});
+  else if (recording < still_points.by_landmarks.size())
+    tried.steady = still_points.by_landmarks[recording];
   else
     tried = motion::try_stabilise(motion, motion::own_names(motion, still_points.names),
                                   "rigid_points of the visits");
@@ -299,11 +302,12 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
 
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
-                     const motion::StillPoints& still_points) {
+                     const motion::StillPoints& still_points, std::size_t recording) {
   MeasuredFace face;
   const fs::path name = motion::named(motion);
   face.file = name.filename().string();
-  const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
+  const motion::StabilisedMotion steady =
+      without_head(motion, visits, still_points, recording, face);
   if (face.head_known)
     for (const Note& doubt : session::extent_warnings(steady.motion))
       face.extent_doubts.push_back(doubt.text);
@@ -344,9 +348,9 @@ session::CleanedRecording read_recording(const fs::path& recording, const VisitE
 
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
-                               const motion::StillPoints& still_points) {
+                               const motion::StillPoints& still_points, std::size_t number) {
   const motion::Motion& motion = recording.motion;
-  MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points);
+  MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points, number);
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())
     face.remarks.push_back(
         fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));

@@ -126,6 +126,22 @@ TEST(StillPoints, OfFewSamplesAreNotThoseOfAQuickHead) {
   EXPECT_THAT(find_still_points(motion), ElementsAre("a", "b", "c", "d", "e", "f"));
 }
 
+/// Takes readings of a point away.
+void lose(Motion& motion, const std::string& name, std::size_t first, std::size_t count) {
+  for (std::size_t k = first; k < first + count; ++k)
+    motion.positions[k].row(motion.index_of(name)).setConstant(testing::nan);
+}
+
+TEST(StillPoints, AreNotLostByAShortGap) {
+  Motion torn = nodding();
+  lose(torn, "left", 7, 2);
+  EXPECT_THAT(find_still_points(torn), ElementsAre("top", "left", "right", "nose"));
+  Motion whole = nodding();
+  for (const auto& [first, second] : {std::pair{&torn, &whole}, {&whole, &torn}})
+    EXPECT_THAT(find_still_points(std::vector<const Motion*>{first, second}),
+                ElementsAre("top", "left", "right", "nose"));
+}
+
 TEST(StillPoints, ThreeAreTooFewToBeSure) {
   EXPECT_THAT(find_still_points(nodding(5e-3)), IsEmpty());
 }
@@ -255,14 +271,56 @@ TEST(StillPointsBesideLandmarks, AreAllFoundInNoise) {
           << noise_m << ", " << seed;
 }
 
-TEST(StillPointsBesideLandmarks, AreAllFoundWhereTheHeadNodsQuickly) {
-  Motion motion = landmarks_with(kOnBand, 0.01, none);
+void nod_quickly(Motion& motion) {
   for (std::size_t k = 0; k < motion.positions.size(); ++k) {
     const double angle = 0.15 * std::sin(4 * std::numbers::pi * motion.time_s[k]);
     const Eigen::Matrix3d nod = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
     motion.positions[k] = (motion.positions[k] * nod.transpose()).eval();
   }
+}
+
+TEST(StillPointsBesideLandmarks, AreAllFoundWhereTheHeadNodsQuickly) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  nod_quickly(motion);
   EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand));
+}
+
+/// A head that nods quickly leaves a gap on another way than it came.
+TEST(StillPointsBesideLandmarks, AreNotLostByAShortGap) {
+  for (const std::size_t first : {0u, 20u, 55u}) {
+    Motion motion = landmarks_with(kOnBand, 0.01, none);
+    nod_quickly(motion);
+    lose(motion, "head_3", first, 5);
+    lose(motion, "head_1", 30, 1);
+    EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand)) << first;
+    EXPECT_NO_THROW(stabilise(motion, {.rigid_points = kBand})) << first;
+  }
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  lose(motion, "head_3", 20, 6);
+  EXPECT_THAT(points_to_hold_the_head(motion).names,
+              ElementsAre("head_1", "head_2", "head_4", "head_5", "head_6"))
+      << "a run does not fill so long a gap";
+}
+
+TEST(StillPointsBesideLandmarks, HoldTheHeadInEverySample) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  for (const char* name : {"head_1", "head_2", "head_3"}) lose(motion, name, 20, 1);
+  EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand)) << "three are left";
+  lose(motion, "head_4", 20, 1);
+  EXPECT_THAT(points_to_hold_the_head(motion).names, IsEmpty()) << "the landmarks hold it";
+}
+
+TEST(StillPointsBesideLandmarks, HandOnThePoseByTheLandmarks) {
+  const Motion speechless = landmarks_with(kOnBand, 0, none);
+  const StillPoints found = points_to_hold_the_head(std::vector{&speechless, &speechless});
+  EXPECT_THAT(found.names, IsEmpty()) << "the face does not move";
+  ASSERT_EQ(found.by_landmarks.size(), 2u);
+  const StabilisedMotion again = stabilise(speechless);
+  for (const StabilisedMotion& steady : found.by_landmarks) {
+    EXPECT_EQ(testing::greatest_difference(steady.motion, again.motion), 0);
+    EXPECT_EQ(steady.shift_uncertainty_m, again.shift_uncertainty_m);
+  }
+  EXPECT_TRUE(points_to_hold_the_head(landmarks_with(kOnBand, 0.01, none)).by_landmarks.empty());
 }
 
 /// Every tenth sample is judged: between two of them the head turns by up to 8 degrees.
@@ -402,8 +460,10 @@ TEST(StillPointsBesideLandmarks, OfRealRecordingsAreTheBandAlone) {
 }
 
 TEST(StillPoints, AMissingPoseProposesThem) {
-  testing::expect_refused([] { stabilise(nodding()); },
-                          {"rigid_points", "as points of the skull do: top, left, right, nose"});
+  testing::expect_refused(
+      [] { stabilise(nodding()); },
+      {"rigid_points",
+       "these keep still against each other, as points of the skull do: top, left, right, nose"});
   EXPECT_FALSE(has_pose_points(nodding()));
 }
 

@@ -73,6 +73,22 @@ TEST(MeasuredFace, DirectionsAreThoseOfTheFirstHead) {
   EXPECT_NEAR(value_of(here, "corner_along_first", "R"), 0.5e3 * kWholeSmile.norm(), 0.05);
 }
 
+/// The one handed on has the head in it.
+TEST(MeasuredFace, TakesThePoseThatWasEstimatedAlready) {
+  motion::Motion rising = recording_of({});
+  for (std::size_t k = 0; k < rising.positions.size(); ++k)
+    rising.positions[k].col(1).array() += 5e-3 * rising.time_s[k];
+  motion::StillPoints searched;
+  searched.by_landmarks = {motion::with_still_head(rising)};
+  const auto excursion_mm = [&](std::size_t recording) {
+    const MeasuredFace face = measure(rising, visits_of(1), 0.0, nullptr, searched, recording);
+    return value_of(face, "corner_excursion", "R");
+  };
+  const MeasuredFace own = measure(rising, visits_of(1), 0.0, nullptr);
+  EXPECT_EQ(excursion_mm(1), value_of(own, "corner_excursion", "R")) << "none is handed on";
+  EXPECT_GT(excursion_mm(0), excursion_mm(1) + 3);
+}
+
 TEST(MeasuredFace, NoiseAfterTheFilterIsThatOfManyDraws) {
   std::vector<double> time_s;
   for (int k = 0; k < 60; ++k) time_s.push_back(k < 30 ? k / 30.0 : 1 + (k - 30) / 120.0);
