@@ -2,9 +2,10 @@
 // Three people of a rig with known answers, driven as the program chooses by itself. Their skin is
 // moved by the rig's own shapes, and so is known at every vertex. Held to bounds are the error of
 // the lips over that of a warp, that of the face over those of the warp and of displacement, the
-// roughness of the skin, and how deep the lips lie in each other.
-// The shapes of real faces were made from the same rig: so this shows what breaks, not how good the
-// program is. The data are not part of the repository; where they are absent the tests are skipped.
+// roughness of the skin, the groove between nose and mouth, and how deep the lips lie in each
+// other. The shapes of real faces were made from the same rig: so this shows what breaks, not how
+// good the program is. The data are not part of the repository; where they are absent the tests are
+// skipped.
 #include <gmock/gmock.h>
 
 #include <array>
@@ -21,6 +22,7 @@
 #include "hyperex/io/landmarks.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/metrics/baseline.hpp"
+#include "hyperex/metrics/fold_depth.hpp"
 #include "hyperex/metrics/regions.hpp"
 #include "hyperex/metrics/roughness.hpp"
 #include "hyperex/metrics/surface_distance.hpp"
@@ -256,6 +258,36 @@ void expect_no_crumpling(const TriMesh& skin, const PointsF& own, const PointsF&
   EXPECT_EQ(judged, factors.size());
 }
 
+/// Mean depth of the groove between nose and mouth, mm: both sides, cuts at 0.3 and 0.5 of the way.
+/// At 0.7 they cross the corner of the mouth of these faces. `moved`: where the scan's vertices
+/// are.
+double rig_groove_mm(const TriMesh& scan, const Points& moved, const io::Landmarks& landmarks) {
+  io::Landmarks now;
+  for (const auto& [name, place] : landmarks) {
+    Eigen::Index nearest = 0;
+    (scan.points.rowwise() - place.transpose()).rowwise().squaredNorm().minCoeff(&nearest);
+    now[name] = place + (moved.row(nearest) - scan.points.row(nearest)).transpose();
+  }
+  double sum_mm = 0;
+  for (const bool left : {false, true}) {
+    const auto cuts = metrics::fold_cuts({moved, scan.triangles}, now, left);
+    sum_mm += cuts[0].depth_mm + cuts[1].depth_mm;
+  }
+  return sum_mm / 4;
+}
+
+/// An opening jaw makes no groove of its own, and a smile with raised cheeks a true one.
+void expect_true_groove(const RigRun& run, double own_mm, double true_mm) {
+  testing::Test::RecordProperty("groove_mm", std::to_string(own_mm));
+  testing::Test::RecordProperty("true_groove_mm", std::to_string(true_mm));
+  if (run.weights == kJawOpen) {
+    EXPECT_LE(own_mm, true_mm + 0.5);
+  }
+  if (run.weights == kSmileCheeks) {
+    EXPECT_NEAR(own_mm, true_mm, 0.7);
+  }
+}
+
 /// The default may be worse than the other drive by this factor, over the face.
 constexpr double kWorseThanDisplacement = 1.03;
 /// The default may be worse than the warp by this factor. The rule is for motions of D and E of
@@ -297,6 +329,7 @@ TEST_P(RigPeople, MoveByDefaultAsTheRigDoes) {
   const io::Landmarks& landmarks = session.inputs().landmarks;
   const Eigen::Index count = mesh->scan_vertices;
   const Points rest = mesh->skin.points.topRows(count);
+  const TriMesh scan{rest, session.inputs().scan.mesh.triangles};
   const Points opened =
       io::read_mesh(rig_data(std::string("subject_") + run.person + "_mouth_open_truth.ply"),
                     io::LengthUnit::millimetre)
@@ -317,8 +350,7 @@ TEST_P(RigPeople, MoveByDefaultAsTheRigDoes) {
     return errors_at(rest + moves.topRows(count).cast<double>());
   };
   RigErrors warp;
-  for (const auto& b :
-       metrics::baselines({rest, session.inputs().scan.mesh.triangles}, true_points, landmarks))
+  for (const auto& b : metrics::baselines(scan, true_points, landmarks))
     if (b.key == (run.all_points ? "warp_68" : "warp_7")) warp = errors_at(b.moved);
   session.run_base();
   const PointsF own = peak_of(session);
@@ -331,6 +363,8 @@ TEST_P(RigPeople, MoveByDefaultAsTheRigDoes) {
   PointsF truth = PointsF::Zero(mesh->skin.points.rows(), 3);
   truth.topRows(count) = (true_points - rest).cast<float>();
   expect_no_crumpling(mesh->skin, own, truth, landmarks);
+  expect_true_groove(run, rig_groove_mm(scan, rest + own.topRows(count).cast<double>(), landmarks),
+                     rig_groove_mm(scan, true_points, landmarks));
   const simulate::LipSurfaces both(*mesh, landmarks);
   ASSERT_FALSE(both.empty());
   EXPECT_LE(1e3 * both.depth(own), 1e3 * both.depth(truth) + 0.5) << "lips in each other, mm";
