@@ -195,11 +195,12 @@ struct TissueFieldOptions {
              "viscosity_pa_s, poisson or density_kg_m3 and one row per vertex, or a PLY file with "
              "such vertex properties. An empty cell (in PLY: nan) keeps the value that the other "
              "keys give.");
-    v.option(HX_MEMBER(layers),
-             "A layer of the tissue, from the skin inwards: other values than the uniform ones, "
-             "before points and regions change them. Under the last one with a thickness the "
-             "tissue is uniform.",
-             {.key = "layer"});
+    v.option(
+        HX_MEMBER(layers),
+        "A layer of the tissue, from the skin inwards, with values of its own in place of the "
+        "uniform ones; points and regions change them afterwards. Under layers that all have a "
+        "thickness the tissue is uniform.",
+        {.key = "layer"});
     v.option(HX_MEMBER(points),
              "Parameters at a landmark, interpolated over the face instead of the uniform ones. At "
              "least one of them must be given.",
