@@ -227,6 +227,9 @@ constexpr NoteKind kKinds[] = {
     "Values per vertex are in another order than the scan's vertices and were matched by place."),
   note("tissue.values_averaged", "tissue.per_vertex",
     "Several vertices of a file with different values lie at one vertex of the scan."),
+  note("tissue.layers_end", "tissue.layer",
+    "The tissue is too thin for its deepest layer under one per cent of the skin or more: the layers "
+    "above it end at the inner surface there."),
   note("mesh.unchecked", "mesh.element_size_mm",
     "`hyperex check` makes no mesh of more than 40,000 nodes, nor of a scan of more than 300,000 "
     "vertices: it does not check what a run finds on it."),

@@ -40,6 +40,7 @@ FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
   Stopwatch watch;
   take_at_first(first);
   seconds.tissue = watch.lap();
+  report(notes_on_tissue(field, runs));
   begin_stage("assembling and factoring");
   Progress progress("assembling and factoring", 0);
   run_together({[&] { prepare_with_kept_order(scene, inputs, *simulator); },

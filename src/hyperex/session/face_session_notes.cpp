@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "hyperex/session/face_options.hpp"
 #include "hyperex/session/face_session_impl.hpp"
 #include "hyperex/session/run_notes.hpp"
 
@@ -60,6 +61,7 @@ std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
 std::vector<Note> FaceSession::Impl::notes() const {
   std::vector<Note> all = notes_on_inputs(Severity::note);
   append(all, face.mesh->notes);
+  append(all, notes_on_tissue(field, runs));
   append(all, teeth_notes);
   append(all, notes_on_inputs(Severity::warning));
   append(all, skin_notes);

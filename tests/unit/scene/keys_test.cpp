@@ -76,6 +76,7 @@ const std::map<std::string, std::string> kOtherMembers = {
     {"tissue.viscosity_pa_s", "tissue.uniform[viscosity]"},
     {"tissue.poisson", "tissue.uniform[poisson]"},
     {"tissue.density_kg_m3", "tissue.uniform[density]"},
+    {"tissue.layer", "tissue.layers"},
     {"tissue.point", "tissue.points"},
     {"tissue.region", "tissue.regions"},
     {"surgery.bone", "surgery.bones"},
