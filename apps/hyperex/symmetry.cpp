@@ -34,6 +34,7 @@
 #include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/run/corner_words.hpp"
+#include "hyperex/run/earlier_run.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
@@ -86,8 +87,8 @@ fs::path run_that_wrote(const fs::path& motion) {
   const fs::path folder = fs::absolute(motion).lexically_normal().parent_path(),
                  variants = folder.parent_path();
   const bool of_variant =
-      variants.filename() == "variants" && fs::exists(variants.parent_path() / "summary.json");
-  return of_variant || fs::exists(folder / "summary.json") ? folder : fs::path();
+      variants.filename() == "variants" && run::is_folder_of_run(variants.parent_path());
+  return of_variant || run::is_folder_of_run(folder) ? folder : fs::path();
 }
 
 /// The number given by --jitter-mm; nothing for "auto".
@@ -207,7 +208,6 @@ void report_whose_sides(const fs::path& run) {
 void report(const SymmetryOptions& options, const fs::path& run,
             const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
             const motion::StabilisedMotion& steady) {
-  report_whose_sides(run);
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   const std::string whose = run.empty() ? options.motion.filename().string()
@@ -217,6 +217,7 @@ void report(const SymmetryOptions& options, const fs::path& run,
   if (!options.excursions.empty())
     metrics::write_excursions_csv(options.excursions, all.excursions);
   if (!options.out.empty()) metrics::write_symmetry_csv(options.out, all);
+  report_whose_sides(run);
   std::cout << run::corners_line(all.excursions);
   if (options.out.empty() && all.curve.known()) print_curve(all.curve);
   print_excursions(all.excursions);

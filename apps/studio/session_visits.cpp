@@ -5,9 +5,11 @@
 #include <set>
 
 #include "hyperex/core/error.hpp"
+#include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/scene/recording_file.hpp"
+#include "hyperex/session/cleaned_recording.hpp"
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/read_recording.hpp"
@@ -29,6 +31,7 @@ bool is_of_points_as_recorded(const scene::MotionOptions& motion) {
 
 /// One of the recordings that are compared.
 struct ComparedRecording {
+  const scene::Scene* its_scene;
   visits::VisitEntry visit;
   motion::Motion points;
   std::vector<std::string> by_hand;  ///< points that the user chose to hold the head; or empty
@@ -45,27 +48,27 @@ std::vector<std::string> points_by_hand(const scene::Scene& scene, const motion:
              : named;
 }
 
-/// Writes the recorded points into the file `written`, and returns a visit that has this file.
+/// The recorded points, and a visit that has the file `written`, which write_points() writes.
 /// Points of a table keep their head pose, which the comparison takes out: taken out before, by
 /// other points, it would make other figures than hyperex visits. Points are not aligned with the
 /// scan: that would give both visits the same face at rest.
 ComparedRecording visit_of(const scene::Scene& scene, session::Inputs inputs,
                            const fs::path& written) {
-  ComparedRecording out;
-  out.points = session::read_motion(scene, session::Extent::full, inputs);
+  ComparedRecording out{&scene, {}, session::read_motion(scene, session::Extent::full, inputs), {}};
   out.by_hand = points_by_hand(scene, out.points);
   if (!is_of_points_as_recorded(scene.motion))
     out.points = session::steady_motion(scene, out.points, session::Extent::full, inputs).motion;
-  motion::write_motion_csv(written, out.points);
   out.visit.label = scene::recording_file(scene.motion).filename().string();
   out.visit.recordings = {written};
   return out;
 }
 
 /// The points that hold the head in both recordings: those that the user chose for the present one,
-/// else for the one before; empty: none were chosen. Throws InputError where a recording lacks one.
+/// else for the one before; empty: none were chosen, or weights moved one of the faces, whose head
+/// is still. Throws InputError where a recording lacks one.
 std::vector<std::string> chosen_points(const ComparedRecording& before,
                                        const ComparedRecording& now) {
+  if (scene::of_weights(*before.its_scene) || scene::of_weights(*now.its_scene)) return {};
   const std::vector<std::string>& chosen = now.by_hand.empty() ? before.by_hand : now.by_hand;
   for (const ComparedRecording* one : {&before, &now})
     for (const std::string& name : motion::own_names(one->points, chosen))
@@ -75,6 +78,27 @@ std::vector<std::string> chosen_points(const ComparedRecording& before,
                         "both recordings have (motion.rigid_points)",
                         one->visit.label, name));
   return chosen;
+}
+
+/// Fills the gaps of the points `names`, as a run does: the comparison takes the head's pose from
+/// them in every sample. Other points keep theirs, as in hyperex visits.
+void fill_gaps_of(const std::vector<std::string>& names, double max_gap_s, motion::Motion& points) {
+  const motion::Motion cleaned = session::cleaned_recording(points).motion,
+                       filled = motion::fill_gaps(cleaned, {.max_gap_s = max_gap_s}).motion;
+  for (const std::string& name : motion::own_names(points, names)) {
+    const int row = points.index_of(name);
+    for (std::size_t k = 0; k < points.positions.size(); ++k)
+      if (!cleaned.positions[k].row(row).allFinite())
+        points.positions[k].row(row) = filled.positions[k].row(row);
+  }
+}
+
+/// Writes the file of the visit. `holding_head`: the chosen points.
+void write_points(ComparedRecording& recording, const std::vector<std::string>& holding_head) {
+  const scene::MotionOptions& motion = recording.its_scene->motion;
+  if (!holding_head.empty() && is_of_points_as_recorded(motion))
+    fill_gaps_of(holding_head, motion.max_gap_s, recording.points);
+  motion::write_motion_csv(recording.visit.recordings.front(), recording.points);
 }
 
 }  // namespace
@@ -112,12 +136,13 @@ json Session::compare_visits(const json& fields) {
   earlier.kept = options_.kept;
   const session::FaceSession before(scene::Scene(earlier),
                                     {.certainty = session::Certainty::on_request});
-  const ComparedRecording first =
-      visit_of(earlier, before.inputs(), options_.folder / "visit_1.csv");
-  const ComparedRecording second =
+  ComparedRecording first = visit_of(earlier, before.inputs(), options_.folder / "visit_1.csv");
+  ComparedRecording second =
       visit_of(face_->scene(), face_->inputs(), options_.folder / "visit_2.csv");
   file.visits = {first.visit, second.visit};
   file.rigid_points = chosen_points(first, second);
+  for (ComparedRecording* recording : {&first, &second})
+    write_points(*recording, file.rigid_points);
   const visits::Comparison compared = visits::compare_visits(file);
   visits::write_visits_page(path, compared);
   written_.push_back(path);

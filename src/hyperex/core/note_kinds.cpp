@@ -199,8 +199,8 @@ constexpr NoteKind kKinds[] = {
   note("recording.unit", "motion.unit", "The recording's unit, and how it is known."),
   note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
   note("recording.keyframes", "motion.arkit",
-    "A table of weights has rows more than 0.1 s apart (median) at times that no device would "
-    "sample at: uneven, or more than 0.5 s apart within 33 s. They are taken for keyframes."),
+    "A table of weights has up to 30 rows more than 0.1 s apart (median) at times that no device "
+    "would sample at: uneven, or more than 0.5 s apart within 33 s. They are taken for keyframes."),
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
     "The face is not at rest where the run begins in the recording: the run leads face and eyes "

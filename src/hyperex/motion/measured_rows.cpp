@@ -43,14 +43,18 @@ double longest_gap_s(const Motion& motion, int row) {
 std::vector<int> hardly_interrupted(const Motion& motion, const std::vector<int>& rows,
                                     double most_s) {
   constexpr double slack = 1 + 1e-9;
-  std::vector<int> some = rows, whole = rows;
+  const std::size_t count = motion.positions.size();
+  std::vector<int> some = rows;
   std::erase_if(some, [&](int row) { return longest_gap_s(motion, row) > slack * most_s; });
-  const std::size_t complete = samples_with_all(motion, some).size();
-  if (complete >= 2 && 2 * complete >= motion.positions.size()) return some;
-  std::erase_if(whole, [&](int row) {
-    return samples_with_all(motion, {row}).size() < motion.positions.size();
-  });
-  return whole;
+  std::vector<std::size_t> readings;
+  for (const int row : some) readings.push_back(samples_with_all(motion, {row}).size());
+  for (;;) {
+    const std::size_t complete = samples_with_all(motion, some).size();
+    if (complete == count || (complete >= 2 && 2 * complete >= count)) return some;
+    const auto fewest = std::ranges::min_element(readings);
+    some.erase(some.begin() + (fewest - readings.begin()));
+    readings.erase(fewest);
+  }
 }
 
 bool give_pose_in_gaps(const Motion& motion, const std::vector<int>& rows, double least_spread) {

@@ -14,8 +14,8 @@ std::vector<std::size_t> samples_with_all(const Motion& motion, const std::vecto
 /// at an end of the motion, to or from that end. 0 without gaps; infinite without any reading.
 double longest_gap_s(const Motion& motion, int row);
 
-/// Those of `rows` whose gaps are none longer than `most_s`, as long as at least half of the
-/// samples, and two, have all of them; else those without a gap.
+/// Those of `rows` whose gaps are none longer than `most_s`, less those with the most lost readings
+/// until at least half of the samples, and two, have all the others. Rows without a gap stay.
 std::vector<int> hardly_interrupted(const Motion& motion, const std::vector<int>& rows,
                                     double most_s);
 

@@ -200,18 +200,6 @@ CommonStill still_among(const std::vector<const Motion*>& motions, const CommonP
   return out;
 }
 
-/// The same of all points that may be still. Short gaps, which a run fills, cost none of them as
-/// long as the others give the pose there.
-CommonStill still_among(const std::vector<const Motion*>& motions, MayBeStill may_be_still,
-                        double give_m) {
-  CommonStill still =
-      still_among(motions, common_points(motions, may_be_still, GapOptions().max_gap_s), give_m);
-  for (std::size_t i = 0; i < motions.size(); ++i)
-    if (!give_pose_in_gaps(*motions[i], still.rows[i], kLeastStillSpread))
-      return still_among(motions, common_points(motions, may_be_still, 0), give_m);
-  return still;
-}
-
 /// How many of `count` points must keep still.
 std::size_t enough_of(std::size_t count) {
   return count == 3 ? 3 : std::clamp((count + 1) / 2, kLeastStillPoints, kMoreThanChance);
@@ -274,24 +262,49 @@ bool any_near_a_line(const std::vector<const Motion*>& motions, const CommonStil
   return false;
 }
 
+/// What makes some still points the ones that are sought.
+using AreSought = bool (*)(const std::vector<const Motion*>& motions, const CommonStill& still);
+
+bool give_poses_in_gaps(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (!give_pose_in_gaps(*motions[i], still.rows[i], kLeastStillSpread)) return false;
+  return true;
+}
+
+/// Those of all points that may be still; none where they are not sought. Short gaps, which a run
+/// fills, cost no point as long as the others give the pose there. Where points with gaps make the
+/// difference, those without are judged alone.
+CommonStill sought_among(const std::vector<const Motion*>& motions, MayBeStill may_be_still,
+                         double give_m, AreSought are_sought) {
+  if (!all_have_samples(motions)) return {};
+  const CommonPoints hardly = common_points(motions, may_be_still, GapOptions().max_gap_s),
+                     whole = common_points(motions, may_be_still, 0);
+  CommonStill still = still_among(motions, hardly, give_m);
+  if (are_sought(motions, still) && give_poses_in_gaps(motions, still)) return still;
+  if (whole.rows == hardly.rows) return {};
+  still = still_among(motions, whole, give_m);
+  return are_sought(motions, still) ? still : CommonStill();
+}
+
+bool are_enough_for_a_pose(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  return still.points.names.size() >= kLeastStillPoints && !any_near_a_line(motions, still);
+}
+
+bool are_many_and_far_apart(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  return still.of >= 3 && still.points.names.size() >= enough_of(still.of) &&
+         !any_near_a_line(motions, still) &&
+         greatest_distance(first_whole(*motions.front(), still.rows.front()), still.rows.front()) >=
+             kLeastStillSize_m;
+}
+
 /// find_still_points() with the points that move.
 StillPoints still_without_landmarks(const std::vector<const Motion*>& motions) {
-  if (!all_have_samples(motions)) return {};
-  CommonStill still = still_among(motions, is_not_of_the_mouth, kStillPoints_m);
-  if (still.points.names.size() < kLeastStillPoints || any_near_a_line(motions, still)) return {};
-  return std::move(still.points);
+  return sought_among(motions, is_not_of_the_mouth, kStillPoints_m, are_enough_for_a_pose).points;
 }
 
 /// Candidates beside the landmarks that are still, many and far apart; else none.
 CommonStill still_beside_landmarks(const std::vector<const Motion*>& motions) {
-  if (!all_have_samples(motions)) return {};
-  CommonStill still = still_among(motions, is_beside_landmarks, kBandGives_m);
-  if (still.of < 3 || still.points.names.size() < enough_of(still.of) ||
-      any_near_a_line(motions, still) ||
-      greatest_distance(first_whole(*motions.front(), still.rows.front()), still.rows.front()) <
-          kLeastStillSize_m)
-    return {};
-  return still;
+  return sought_among(motions, is_beside_landmarks, kBandGives_m, are_many_and_far_apart);
 }
 
 }  // namespace

@@ -12,9 +12,10 @@ namespace hyperex::motion {
 /// do: the largest set whose points move by at most kStillPoints_m beyond their own jitter
 /// (largest_rigid_set()), in the motion's order. Points of the mouth and the chin
 /// (face::moves_with_mouth()) are left out, since the lower lip and the chin also move together.
-/// Points may have gaps that a run fills by default (GapOptions::max_gap_s), as long as half of the
-/// samples have all candidates and the points found give a pose in every sample; else no gaps.
-/// Empty where fewer than four points are found, or where they lie nearly on a line.
+/// Candidates may have gaps that a run fills by default (GapOptions::max_gap_s), as far as half of
+/// the samples have them all (hardly_interrupted()), and the points found must give a pose in every
+/// sample. Where that finds none, candidates without gaps are judged alone. Empty where fewer than
+/// four points are found, or where they lie nearly on a line.
 std::vector<std::string> find_still_points(const Motion& motion);
 /// The same of several recordings of one face, not null: points that all of them have and that keep
 /// still in each. How far they are apart may differ between the recordings. They may have

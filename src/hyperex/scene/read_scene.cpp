@@ -283,6 +283,12 @@ Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides
   return read_scene_with(file, from_command_line(overrides));
 }
 
+void leave_out_variants(Scene& scene) {
+  scene.variants.clear();
+  if (!scene.origins.contains("contact.lips"))
+    scene.contact.lips = scene.model.strain != simulate::Strain::finite;
+}
+
 std::vector<InputProblem> problems_of(const fs::path& file,
                                       const std::vector<std::string>& overrides) {
   return read(file, from_command_line(overrides)).problems;

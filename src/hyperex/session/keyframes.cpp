@@ -15,6 +15,7 @@ constexpr double kOffMultiple = 0.1;  // of the median step
 constexpr double kFewOff = 0.2;       // of all steps
 constexpr double kSlowestDevice_s = 0.5;
 constexpr double kCameraFrame_s = 1.0 / 30;
+constexpr std::size_t kMostKeyframes = 30;
 
 /// Whether the steps are whole multiples of the median one, but for a few.
 bool are_sampled_evenly(const std::vector<double>& time_s, double step_s) {
@@ -26,14 +27,21 @@ bool are_sampled_evenly(const std::vector<double>& time_s, double step_s) {
   return double(off) <= kFewOff * double(time_s.size() - 1);
 }
 
+/// Frame numbers that stand in the place of times.
+bool count_frames(const std::vector<double>& time_s) {
+  for (std::size_t k = 1; k < time_s.size(); ++k)
+    if (time_s[k] - time_s[k - 1] != 1) return false;
+  return true;
+}
+
 }  // namespace
 
 bool are_keyframes(const std::vector<double>& time_s) {
-  if (time_s.size() < 2) return false;
+  if (time_s.size() < 2 || time_s.size() > kMostKeyframes) return false;
   const double step_s = median_step(time_s), lasts_s = time_s.back() - time_s.front();
   if (step_s <= motion::Motion::kSmoothUpTo_s) return false;
   return !are_sampled_evenly(time_s, step_s) ||
-         (step_s > kSlowestDevice_s && 1e-3 * lasts_s < kCameraFrame_s);
+         (step_s > kSlowestDevice_s && 1e-3 * lasts_s < kCameraFrame_s && !count_frames(time_s));
 }
 
 std::optional<Note> keyframes_note(const motion::Motion& m, Readings readings) {

@@ -43,6 +43,14 @@ TEST(MeasuredRows, ShortGapsAreFewEnoughWhereHalfOfTheSamplesAreWhole) {
   EXPECT_THAT(hardly_interrupted(torn, {1}, 0.3), IsEmpty());
 }
 
+TEST(MeasuredRows, OnePointThatFlickersTakesNoToleranceFromTheOthers) {
+  const Motion motion = square([](int k, int p) {
+    return (p == 1 && k % 3 != 0) || (p == 2 && k == 5) || (p == 3 && k % 4 == 0);
+  });
+  EXPECT_THAT(hardly_interrupted(motion, {0, 1, 2, 3}, 0.3), ElementsAre(0, 2, 3));
+  EXPECT_THAT(hardly_interrupted(motion, {1, 2}, 0.3), ElementsAre(2));
+}
+
 TEST(MeasuredRows, ThreePointsOffALineGiveAPoseInAGap) {
   const auto losing = [](int sample, const std::vector<int>& points) {
     return square([=](int k, int p) { return k == sample && std::ranges::count(points, p) > 0; });

@@ -230,6 +230,20 @@ TEST(ReadScene, LipsAreKeptApartWhereEveryFaceHasLinearStrain) {
   }
 }
 
+TEST(ReadScene, WithoutItsVariantsLipsAreAsInASceneThatHasNone) {
+  const SceneFolder folder;
+  const auto lips = [&](const std::string& more) {
+    Scene scene = read_scene(folder.write(
+        "scene.toml", smallest + more + "[[variant]]\nname = \"v\"\ntissue.strain = \"finite\"\n"));
+    leave_out_variants(scene);
+    EXPECT_TRUE(scene.variants.empty());
+    return scene.contact.lips;
+  };
+  EXPECT_TRUE(lips(""));
+  EXPECT_FALSE(lips("[tissue]\nstrain = \"finite\"\n"));
+  EXPECT_FALSE(lips("[contact]\nlips = false\n"));
+}
+
 TEST(ReadScene, AScanOrARecordingIsNoScene) {
   const SceneFolder folder;
   EXPECT_THAT(

@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "support/note_matchers.hpp"
@@ -18,13 +20,19 @@ using Times = std::vector<double>;
 
 TEST(Keyframes, AreAtTimesThatNoDeviceSamplesAt) {
   for (const Times& times :
-       {Times{0, 0.2, 0.5, 0.8, 1.1, 1.5, 1.8, 2}, {0, 0.2, 0.6, 1, 1.4}, {0, 0.3, 1}, {0, 1, 2}})
+       {Times{0, 0.2, 0.5, 0.8, 1.1, 1.5, 1.8, 2}, {0, 0.2, 0.6, 1, 1.4}, {0, 0.3, 1}, {0, 2, 4}})
     EXPECT_TRUE(are_keyframes(times)) << testing::PrintToString(times);
+  Times of_slow_webcam = {0}, frame_numbers = {0};
+  for (int k = 1; k < 100; ++k)
+    of_slow_webcam.push_back(of_slow_webcam.back() + 0.12 + 0.18 * std::fmod(0.618 * k, 1));
+  for (int k = 1; k < 20; ++k) frame_numbers.push_back(k);
   for (const Times& times : {Times{0, 0.25, 0.5, 0.75, 1},
                              {0, 0.2, 0.4, 0.8, 1, 1.2},
                              {0, 0.5},
                              {0, 0.03, 0.08, 0.1},
                              {0, 33, 67, 100},
+                             of_slow_webcam,
+                             frame_numbers,
                              {0}})
     EXPECT_FALSE(are_keyframes(times)) << testing::PrintToString(times);
 }
@@ -45,6 +53,8 @@ TEST(Keyframes, AreThoseOfWeightsAlone) {
   EXPECT_TRUE(timing_warning(motion, Readings::of_weights)) << "milliseconds";
   motion.time_s = {0, 33, 107, 700};
   EXPECT_TRUE(timing_warning(motion, Readings::of_weights)) << "more than ten minutes";
+  motion.time_s = {0, 1, 2, 3, 4, 5};
+  EXPECT_TRUE(timing_warning(motion, Readings::of_weights)) << "frame numbers";
 }
 
 TEST(Keyframes, RaiseANoteAndNoWarning) {

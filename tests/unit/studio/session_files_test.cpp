@@ -432,60 +432,6 @@ TEST_F(StudioSession, VisitsSayWhatTheCommandSaysOfTheSameFiles) {
     EXPECT_LT((compared.positions[k] - recorded.positions[k]).cwiseAbs().maxCoeff(), 1e-9) << k;
 }
 
-/// The mouth opens; four points of a band slip by `slip_m` over the whole recording.
-motion::Motion opening_with_band(double opening_deg, double slip_m, const std::string& name) {
-  motion::MouthOpeningOptions options;
-  options.peak_deg = opening_deg;
-  options.head_moves = false;
-  motion::Motion motion =
-      motion::embedded_mouth_opening(anatomy::embedded_face().landmarks, options);
-  const Points rest = motion.positions.front();
-  const auto brow = [&](int i) { return rest.row(motion.index_of(face::ibug(i))).eval(); };
-  const Eigen::RowVector3d places[] = {brow(17), brow(19), brow(24), brow(26)};
-  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
-    Points& at = motion.positions[k];
-    const double share = double(k) / double(motion.positions.size() - 1);
-    at.conservativeResize(at.rows() + 4, Eigen::NoChange);
-    for (int i = 0; i < 4; ++i)
-      at.row(at.rows() - 4 + i) =
-          places[i] + Eigen::RowVector3d(0, 0.03 + 0.02 * (i % 2) + slip_m * share, -0.01);
-  }
-  for (int i = 1; i <= 4; ++i) motion.names.push_back(name + std::to_string(i));
-  return motion;
-}
-
-TEST_F(StudioSession, VisitsHoldTheHeadByThePointsThatTheUserChose) {
-  open();
-  visits::VisitsFile file;
-  file.expression = *visits::expression_named("mouth open");
-  const auto drop = [&](const std::string& name, const motion::Motion& motion) {
-    visits::VisitEntry visit;
-    visit.label = name;
-    visit.recordings = {folder_.path() / "own" / "uploads" / name};
-    motion::write_motion_csv(visit.recordings.front(), motion);
-    EXPECT_FALSE(ask("open", {{"what", "current"}, {"recording", name}}).contains("error"));
-    file.visits.push_back(visit);
-  };
-  const auto compared = [&] {
-    return ask("compare_visits", {{"expression", "mouth open"}, {"name", "change"}});
-  };
-  const json band = {"head_1", "head_2", "head_3", "head_4"};
-  drop("visit1.csv", opening_with_band(12, 0.01, "head_"));
-  EXPECT_FALSE(set({{"motion.rigid_points", band}}, 0).contains("error"));
-  drop("visit2.csv", opening_with_band(8, -0.01, "head_"));
-  const auto by_landmarks = visits::summary(visits::compare_visits(file));
-  file.rigid_points = band.get<std::vector<std::string>>();
-  const auto by_band = visits::summary(visits::compare_visits(file));
-  ASSERT_NE(by_band, by_landmarks);
-  EXPECT_EQ(compared()["sentences"].get<std::vector<std::string>>(), by_band)
-      << "chosen for the recording before";
-  EXPECT_FALSE(set({{"motion.rigid_points", band}}, 0).contains("error"));
-  EXPECT_EQ(compared()["sentences"].get<std::vector<std::string>>(), by_band)
-      << "chosen for the present one";
-  drop("visit3.csv", opening_with_band(8, 0.01, "hat_"));
-  EXPECT_THAT(compared().value("error", ""), HasSubstr("visit3.csv has no point head_1"));
-}
-
 TEST_F(StudioSession, WhatIsDoneLiesInItsFolderAtOnce) {
   open();
   set({{"tissue.young_kpa", 151}}, 0);
