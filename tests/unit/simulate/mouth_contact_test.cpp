@@ -110,7 +110,7 @@ TEST_F(MouthContactOfAFace, AStreamKeepsTheLipsApart) {
     Simulator simulator(mesh, face_.landmarks, shut, options_);
     simulator.start_stream(1.0 / 30);
     std::vector<PointsF> frames;
-    for (const Points& points : shut.motion.positions_m)
+    for (const Points& points : shut.motion.positions)
       frames.push_back(simulator.step(points - shut.rest));
     return frames;
   };
