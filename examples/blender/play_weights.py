@@ -10,9 +10,10 @@ after blend shapes. Each mesh of the rig takes the shapes that it has: the skin 
 lower teeth those of the jaw.
 
 A corrective, as jawOpen_mouthClose, has the product of the values of its two shapes. In a .blend drivers compute it, so
-that it also follows values that are changed by hand. Other files know no drivers, and it gets keys.
+that it also follows values that are changed by hand. Other files know no drivers, and it gets a key at every frame.
 """
 import csv
+import math
 import os
 import sys
 
@@ -56,9 +57,16 @@ def read_weights(file):
 
 
 def corrected(name, shapes):
-    """The names of the two shapes whose combination a corrective corrects; None where the name is none of two."""
-    first, _, second = name.partition("_")
-    return (first, second) if first in shapes and second in shapes else None
+    """The names of the two shapes whose combination a corrective corrects; None where the name is none of two.
+
+    A shape's own name may have an underscore, as mouthSmile_L.
+    """
+    parts = name.split("_")
+    for at in range(1, len(parts)):
+        first, second = "_".join(parts[:at]), "_".join(parts[at:])
+        if first in shapes and second in shapes and first != second:
+            return first, second
+    return None
 
 
 def key_shape(mesh, name, times, values):
@@ -83,6 +91,26 @@ def key_shapes(mesh, skin, times, weights):
     return animated
 
 
+def product(times, first, second):
+    """Times and values of the product of two weights: at the rows, and at each whole frame between them.
+
+    Weights run straight from row to row. Their product does not.
+    """
+    at, values = [], []
+    for row, time in enumerate(times):
+        if row > 0:
+            begin = times[row - 1]
+            after, before = begin * FRAME_RATE + 1e-6, time * FRAME_RATE - 1e-6
+            for frame in range(math.floor(after) + 1, math.ceil(before)):
+                share = (frame / FRAME_RATE - begin) / (time - begin)
+                a, b = (of[row - 1] + share * (of[row] - of[row - 1]) for of in (first, second))
+                at.append(frame / FRAME_RATE)
+                values.append(a * b)
+        at.append(time)
+        values.append(first[row] * second[row])
+    return at, values
+
+
 def key_correctives(mesh, skin, times, weights):
     """Animates the correctives by the products of two weights; how many of them move."""
     animated = 0
@@ -91,9 +119,9 @@ def key_correctives(mesh, skin, times, weights):
         both = [weights.get(name.lower()) for name in pair or ()]
         if not pair or None in both:
             continue
-        values = [first * second for first, second in zip(*both)]
+        at, values = product(times, *both)
         if any(values):
-            key_shape(mesh, key.name, times, values)
+            key_shape(mesh, key.name, at, values)
             animated += 1
     return animated
 

@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Correctives in examples/blender/play_weights.py, without Blender: play_weights_test.py EXAMPLES
 
-Blender's objects are stood in for by the few members that the script uses. tests/interop has Blender itself.
+Blender's objects are stood in for by the few members that the script uses. No test runs correctives in Blender itself:
+the tutorial for artists runs the script there, where Blender is installed, on a rig without them.
 """
 import importlib.util
 import pathlib
@@ -79,7 +80,8 @@ class Correctives(unittest.TestCase):
     WEIGHTS = {"jawopen": [0.5, 1], "mouthclose": [0, 0.4], "jawopen_mouthclose": [9, 9]}
 
     def setUp(self):
-        self.face = mesh_of("jawOpen", "mouthClose", "mouthFunnel", "jawOpen_mouthClose", "jawOpen_mouthFunnel")
+        self.face = mesh_of("jawOpen", "mouthClose", "mouthFunnel", "mouthSmile_L", "jawOpen_mouthClose",
+                            "jawOpen_mouthFunnel")
         self.teeth = mesh_of("jawOpen", "jawOpen_mouthClose")
         self.skin = self.face.shape_keys
 
@@ -90,7 +92,8 @@ class Correctives(unittest.TestCase):
     def test_names(self):
         names = self.skin.key_blocks
         self.assertEqual(script.corrected("jawOpen_mouthClose", names), ("jawOpen", "mouthClose"))
-        for other in ("jawOpen", "mouthSmile_L", "jawOpen_L", "Basis"):
+        self.assertEqual(script.corrected("mouthSmile_L_mouthFunnel", names), ("mouthSmile_L", "mouthFunnel"))
+        for other in ("jawOpen", "mouthSmile_L", "jawOpen_L", "jawOpen_jawOpen", "Basis"):
             self.assertIsNone(script.corrected(other, names), other)
 
     def test_drivers_multiply_the_values_of_the_skin(self):
@@ -110,8 +113,23 @@ class Correctives(unittest.TestCase):
     def test_keys_are_products(self):
         for mesh in (self.face, self.teeth):
             self.assertEqual(script.key_correctives(mesh, self.skin, self.TIMES, self.WEIGHTS), 1)
-            self.assertEqual(self.values(mesh, "jawOpen_mouthClose"), [0, 0.4])
+            values = self.values(mesh, "jawOpen_mouthClose")
+            self.assertEqual((values[0], values[-1]), (0, 0.4))
         self.assertEqual(len(self.face.curves), 1, "nothing is known of mouthFunnel")
+
+    def test_between_two_rows_keys_are_products_too(self):
+        self.assertEqual(script.key_correctives(
+            self.teeth, self.skin, [0, 1, 1.09], {"jawopen": [0, 1, 1], "mouthclose": [0, 1, 0]}), 1)
+        points = self.teeth.curves['key_blocks["jawOpen_mouthClose"].value'].points
+        value = {round(frame, 6): key for frame, key in (point.co for point in points)}
+        self.assertAlmostEqual(value[31], 0.25)  # the frame in the middle of the first two rows
+        self.assertEqual(list(value), [*range(1, 67), 66.4])
+        self.assertAlmostEqual(value[63], 1 - 2 / 60 / 0.09)
+
+    def test_a_corrective_may_move_between_rows_alone(self):
+        self.assertEqual(script.key_correctives(
+            self.teeth, self.skin, [0, 1], {"jawopen": [0, 1], "mouthclose": [1, 0]}), 1)
+        self.assertAlmostEqual(max(self.values(self.teeth, "jawOpen_mouthClose")), 0.25)
 
     def test_a_column_of_their_name_is_passed_over(self):
         self.assertEqual(script.key_shapes(self.face, self.skin, self.TIMES, self.WEIGHTS), 2)

@@ -27,8 +27,23 @@ void FaceSession::Impl::finish_search() {
   report(doubts);
 }
 
-/// After base was run, and again once its twin is known: notes that were reported before are not
-/// reported again.
+/// Notes that were reported before are not reported again.
+void FaceSession::Impl::report_new(const std::vector<Note>& now,
+                                   const std::vector<Note>& before) const {
+  std::vector<Note> added;
+  std::copy_if(now.begin(), now.end(), std::back_inserter(added), [&](const Note& note) {
+    return std::find(before.begin(), before.end(), note) == before.end();
+  });
+  report(added);
+}
+
+/// Reports the notes on the tissue that the scene before it did not have.
+void FaceSession::Impl::note_tissue() {
+  const std::vector<Note> before = std::exchange(tissue_notes, notes_on_tissue(field, runs));
+  report_new(tissue_notes, before);
+}
+
+/// After base was run, and again once its twin is known.
 void FaceSession::Impl::note_base() {
   simulate::ContactOptions asked_for = scene.contact;
   asked_for.lips = asked_for.lips && scene.origins.contains("contact.lips");
@@ -41,12 +56,7 @@ void FaceSession::Impl::note_base() {
   append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
   append(base_notes, volume_warnings(peak()));
   append(base_notes, strain_notes(peak()));
-  std::vector<Note> added;
-  std::copy_if(base_notes.begin(), base_notes.end(), std::back_inserter(added),
-               [&](const Note& note) {
-                 return std::find(before.begin(), before.end(), note) == before.end();
-               });
-  report(added);
+  report_new(base_notes, before);
 }
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {

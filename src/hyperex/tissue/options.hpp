@@ -199,7 +199,7 @@ struct TissueFieldOptions {
         HX_MEMBER(layers),
         "A layer of the tissue, from the skin inwards, with values of its own in place of the "
         "uniform ones; points and regions change them afterwards. Under layers that all have a "
-        "thickness the tissue is uniform.",
+        "thickness the tissue is uniform. One or more here replace all layers of the preset.",
         {.key = "layer"});
     v.option(HX_MEMBER(points),
              "Parameters at a landmark, interpolated over the face instead of the uniform ones. At "

@@ -85,14 +85,16 @@ TEST(MuscleLines, BeginAndEndAtTheirPlaces) {
   }
 }
 
-/// The angle between a muscle's way from origin to insertion and the midline, from in front.
+/// The angle between a muscle's way from origin to insertion and the midline, from in front: 0
+/// downwards, above 0 towards the midline, below 0 away from it.
 double to_midline_deg(const MuscleLine& line, const face::FaceFrame& frame) {
   const Vec3 way = (line.line.row(line.line.rows() - 1) - line.line.row(0)).transpose();
-  return std::atan2(std::abs(way.dot(frame.x)), std::abs(way.dot(frame.y))) * 180 /
-         std::numbers::pi;
+  const double side = line.left ? 1 : -1;
+  return std::atan2(-side * way.dot(frame.x), -way.dot(frame.y)) * 180 / std::numbers::pi;
 }
 
-/// Mean and standard deviation in 50 half faces (Hwang et al., Angle Orthod. 79, 2009, 70).
+/// Mean and standard deviation in 50 half faces (Hwang et al., Angle Orthod. 79, 2009, 70). Levator
+/// alaeque runs outwards to the lip.
 TEST(MuscleLines, RunAtTheAnglesThatDissectionFound) {
   struct Dissected {
     const char* muscle;
@@ -101,8 +103,9 @@ TEST(MuscleLines, RunAtTheAnglesThatDissectionFound) {
   const test::AFace& face = test::a_face();
   const face::FaceFrame frame = face::face_frame(face.landmarks);
   const auto lines = lines_of(muscle_template());
-  for (const Dissected& d : {Dissected{"zyg_minor", 55.7, 6.4}, Dissected{"lev_alaeque", 20.2, 3.2},
-                             Dissected{"lev_lab_sup", 25.8, 4.8}}) {
+  for (const Dissected& d :
+       {Dissected{"zyg_minor", 55.7, 6.4}, Dissected{"lev_alaeque", -20.2, 3.2},
+        Dissected{"lev_lab_sup", 25.8, 4.8}}) {
     int found = 0;
     for (const MuscleLine& line : lines) {
       if (muscle_template()[std::size_t(line.row)].name != d.muscle) continue;

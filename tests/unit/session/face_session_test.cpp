@@ -131,6 +131,9 @@ TEST(FaceSession, UnderAStifferSkinTheSameForcesMoveTheFaceLess) {
 /// A layer that ends within the thinnest tissue is not noted.
 TEST(FaceSession, NotesWhereTheTissueIsTooThinForItsLayers) {
   std::vector<Note> heard;
+  const auto times_heard = [](const std::vector<Note>& notes) {
+    return std::ranges::count(notes, std::string("tissue.layers_end"), &Note::id);
+  };
   const auto noted = [&](const std::string& more) {
     heard.clear();
     const FaceSession face(scene_of(kCoarse + more),
@@ -139,8 +142,7 @@ TEST(FaceSession, NotesWhereTheTissueIsTooThinForItsLayers) {
     std::vector<std::string> of;
     for (const Note& note : face.notes())
       if (note.id == "tissue.layers_end") of.push_back(note.variant + ":" + note.key);
-    EXPECT_EQ(std::ranges::count(heard, std::string("tissue.layers_end"), &Note::id),
-              long(of.size()));
+    EXPECT_EQ(times_heard(heard), long(of.size()));
     return of;
   };
   const std::string thick = "layer = [{ name = \"fat\", thickness_mm = 7, young_factor = 0.5 }]\n";
@@ -150,6 +152,14 @@ TEST(FaceSession, NotesWhereTheTissueIsTooThinForItsLayers) {
               testing::ElementsAre("v:tissue.layer"));
   EXPECT_THAT(noted("[[tissue.layer]]\nthickness_mm = 7\nyoung_factor = 0.5\n"),
               testing::ElementsAre(":tissue.layer"));
+  heard.clear();
+  FaceSession face(scene_of(kCoarse), {.certainty = Certainty::on_request,
+                                       .note = [&](const Note& note) { heard.push_back(note); }});
+  EXPECT_EQ(times_heard(heard), 0);
+  face.set("tissue.layer", Value::from_json(R"([{"thickness_mm": 7, "young_factor": 0.5}])"));
+  EXPECT_EQ(times_heard(heard), 1);
+  face.set("tissue.layer[0].young_factor", 0.6);
+  EXPECT_EQ(times_heard(heard), 1) << "once";
 }
 
 TEST(FaceSession, ChangesPartsOfLists) {

@@ -173,5 +173,17 @@ TEST(TissueLayers, ThatTheTissueIsTooThinForAreNoted) {
               testing::AllOf(HasSubstr("begins 4.0 mm"), HasSubstr("under 17 % of the skin")));
 }
 
+TEST(TissueLayers, ThatAllHaveAThicknessMayFillTheTissueExactly) {
+  VolumeMesh slab = slab_of_rows(0.006, 2);
+  const TissueFieldOptions options = of_layers({{.thickness_m = 0.002}, {.thickness_m = 0.004}});
+  EXPECT_TRUE(notes_on_layers(options, slab).empty());
+  for (Eigen::Index v = 0; v < slab.thickness_m.size(); ++v)
+    if (slab.outer.points(v, 1) < 0.0025) slab.thickness_m[v] = 0.003;
+  const std::vector<Note> notes = notes_on_layers(options, slab);
+  ASSERT_EQ(notes.size(), 1u);
+  EXPECT_EQ(notes[0].text,
+            "the layers end 6.0 mm under the skin; under 17 % of it the tissue is thinner");
+}
+
 }  // namespace
 }  // namespace hyperex::tissue

@@ -467,6 +467,28 @@ TEST_F(Field, EachSideTakesTheVolumeThatIsMirrored) {
   EXPECT_NEAR(at(both.skin_volume_ratio, landmarks_->at("cheek_R")), one, 0.1 * (one - 1));
 }
 
+TEST_F(Field, RefusesLayersAndPointsThatAPresetTakesOutOfRange) {
+  TissueFieldOptions layers;
+  layers.preset = "skin_fat_deep";
+  layers.uniform[young] = 1;  // the least that is allowed
+  EXPECT_TRUE(problems_of(layers, *landmarks_).empty());
+  EXPECT_EQ(refusal(layers),
+            "tissue.preset: expected Young's modulus (kPa) of fat to stay from 0.001 to 1e+06 "
+            "kPa; it would be 0.00016");
+  layers.uniform[young] = 7;
+  EXPECT_EQ(refusal(layers), "");
+  layers.uniform[young] = 8e8;
+  EXPECT_THAT(refusal(layers), HasSubstr(" of skin to stay"));
+  TissueFieldOptions points;
+  points.preset = "aged_skin";
+  points.points = {{"cheek_L", "", {6e8}}, {"cheek_R", "", {1e5}}};
+  EXPECT_THAT(refusal(points), testing::AllOf(HasSubstr("tissue.preset: expected"),
+                                              HasSubstr(" at points to stay from"),
+                                              HasSubstr("it would be 1.2e+06")));
+  points.points[0].value[young] = 4e8;
+  EXPECT_EQ(refusal(points), "");
+}
+
 TEST_F(Field, RefusesVolumeWhereNoTissueIs) {
   const auto csv = test_file("one_vertex.csv");
   std::ofstream table(csv);

@@ -98,15 +98,23 @@ std::optional<FieldProblem> layer_beneath(const TissueFieldOptions& options,
 std::vector<Note> notes_on_layers(const TissueFieldOptions& options, const VolumeMesh& volume) {
   const std::vector<double> ends_m = layer_ends(options);
   if (ends_m.size() < 2) return {};
-  const double begins_m = ends_m[ends_m.size() - 2];
+  constexpr double slack = 1e-6;                      // where the layers fill the tissue exactly
+  const double begins_m = ends_m[ends_m.size() - 2];  // what lies under all the others
   const Eigen::VectorXd areas = node_areas(volume.outer);
-  const Eigen::ArrayXd too_thin = (volume.thickness_m.array() <= begins_m).cast<double>();
+  const Eigen::ArrayXd too_thin =
+      (volume.thickness_m.array() < begins_m * (1 - slack)).cast<double>();
   const double share = areas.dot(too_thin.matrix()) / areas.sum();
   if (share < 0.01) return {};
+  const bool all_have_ends = layers_of(options).back().thickness_m.has_value();
   return {make_note("tissue.layers_end",
-                    fmt::format("the deepest layer begins {:.1f} mm under the skin; under {:.0f} % "
-                                "of the skin the tissue is thinner and has nothing of it",
-                                1e3 * begins_m, 100 * share),
+                    all_have_ends
+                        ? fmt::format("the layers end {:.1f} mm under the skin; under {:.0f} % of "
+                                      "it the tissue is thinner",
+                                      1e3 * begins_m, 100 * share)
+                        : fmt::format("the deepest layer begins {:.1f} mm under the skin; under "
+                                      "{:.0f} % of the skin the tissue is thinner and has nothing "
+                                      "of it",
+                                      1e3 * begins_m, 100 * share),
                     options.layers.empty() ? "tissue.preset" : "")};
 }
 

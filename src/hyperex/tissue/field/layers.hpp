@@ -26,8 +26,8 @@ void check_layers(const TissueFieldOptions& options, std::vector<FieldProblem>& 
 std::optional<FieldProblem> layer_beneath(const TissueFieldOptions& options,
                                           const VolumeMesh& volume);
 
-/// Says where the tissue is too thin for the deepest layer, in per cent of the skin; nothing below
-/// one per cent.
+/// Says where the tissue is too thin for the deepest layer, or for all layers where each has a
+/// thickness, in per cent of the skin; nothing below one per cent, nor where they fill it exactly.
 std::vector<Note> notes_on_layers(const TissueFieldOptions& options, const VolumeMesh& volume);
 
 /// Each layer's share of each tetrahedron: |tets| x layer_parameters().size(), rows sum to 1. It is

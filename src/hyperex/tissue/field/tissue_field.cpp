@@ -113,6 +113,25 @@ Given given_by(const std::vector<ResolvedPoint>& points, int parameter) {
   return given;
 }
 
+/// A preset's factor of a layer, or of the values at points, may take an allowed value out of
+/// range. `by_points`: the parameter is given at points, so that the layer's own value of it counts
+/// no more.
+void refuse_out_of_range(const TissueFieldOptions& options, std::size_t layer, int parameter,
+                         const Eigen::VectorXd& values, bool by_points) {
+  const double least = values.minCoeff(), most = values.maxCoeff();
+  if (is_allowed(parameter, least) && is_allowed(parameter, most)) return;
+  const ParameterInfo& info = parameter_info(parameter);
+  const std::vector<TissueLayer>& layers = layers_of(options);
+  std::string of;
+  if (by_points)
+    of = " at points";
+  else if (layer < layers.size() && !layers[layer].name.empty())
+    of = " of " + layers[layer].name;
+  throw FieldError({options.preset.empty() ? info.key : "preset",
+                    fmt::format("{}{} to stay {}; it would be {:.4g}", info.title, of, info.allowed,
+                                (is_allowed(parameter, least) ? most : least) / info.si)});
+}
+
 bool any(const GivenParameters& values) {
   return std::any_of(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
 }
@@ -251,11 +270,13 @@ std::vector<SkinField> TissueFieldMaker::skin_fields(const TissueFieldOptions& o
   }
   std::vector<SkinField> layers;
   for (const TissueParameters& uniform : layer_parameters(options)) {
+    const std::size_t layer = layers.size();
     SkinField& field = layers.emplace_back();
     for (int p = 0; p < parameter_count; ++p) {
       field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
       if (points[p].size() > 0) field[p] = points[p];
       if (own[p].size() > 0) field[p] = own[p].array().isNaN().select(field[p], own[p]);
+      refuse_out_of_range(options, layer, p, field[p], points[p].size() > 0);
     }
   }
   for (std::size_t i = 0; i < options.regions.size(); ++i) {
