@@ -217,7 +217,7 @@ void bind_simulator(py::module_& m) {
           },
           "interval_s"_a, Unlocked(),
           "For points that come in one sample after the other, interval_s apart; begins at rest. "
-          "Needs options.drive.by = \"displacement\".")
+          "Needs options.drive.by = \"displacement\"; contact with teeth and eyes is refused.")
       .def("step", &S::step, "displacement_m"_a, Unlocked(),
            "One sample: the displacement of all points of the motion since rest (P x 3, metres, "
            "the scan's frame, in the order of motion.motion.names). Returns the skin's (vertices x "

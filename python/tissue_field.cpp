@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tissue that differs from place to place: points, regions, scars, presets.
+// Tissue that differs from place to place: layers, points, regions, scars, presets.
 #include "hyperex/tissue/field/tissue_field.hpp"
 
 #include "hyperex/session/thinned_scan.hpp"
@@ -50,6 +50,7 @@ simulate::TissueValues field_of(const SharedTissueMesh& mesh, const Face& face,
 
 void bind_tissue_field(py::module_& m) {
   OptionsClass<TissuePoint>(m, "TissuePoint");
+  OptionsClass<TissueLayer>(m, "TissueLayer");
   OptionsClass<TissueRegion>(m, "TissueRegion");
   OptionsClass<TissueFieldOptions>(m, "TissueFieldOptions");
   m.def("tissue_field", &field_of, "mesh"_a, "face"_a, "options"_a, Unlocked(),

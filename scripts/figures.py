@@ -5,7 +5,8 @@
     scripts/figures.py [PAGE]      by default docs/how_good.md; ends with 1 where a figure is not found
 
 Every row of a table whose last column is "from" links there to the page that it comes from. Each number in the row's
-other cells must stand in that page (`code`, as in commands and names, is left out, and so is the first column).
+other cells must stand in that page (`code`, as in commands and names, is left out, and so is the first column). Numbers
+with a slash between them must stand together there.
 A command of the column "command" begins with a target of the Makefile (make X), a path or an installed program.
 Without PAGE, the decimals of README.md's section "How good is it?" must stand in docs/how_good.md too, and those of its
 SENTENCES in their rows there. The figures of KEPT are those that tests/golden keeps of a run, rounded.
@@ -17,6 +18,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 NUMBER = re.compile(r"(?<![\w.])[+-]?\d+(?:\.\d+)?(?:e-?\d+)?(?![\w]|\.\d)")
+JOINED = re.compile(r"(?<![\w./])[+-]?\d+(?:\.\d+)?(?: / [+-]?\d+(?:\.\d+)?)+(?!\w|\.\d)")
 SENTENCES = ((r"seven recorded points has ([\d.]+)\s+times", "real smile, 7 points: below the eyes / lips / cheeks"),)
 # page, the first cell of a table's head, the first cell of its row, and the kept values of a cell, {} its column
 KEPT = (("docs/symmetry.md", "element size, mm", "3.3 (default)",
@@ -30,6 +32,17 @@ def cells(line):
 
 def numbers(text):
     return [number.lstrip("+") for number in NUMBER.findall(re.sub(r"`[^`]*`", "", text))]
+
+
+def joined(text):
+    """Figures with a slash between them, "0.57 / 0.46 / 0.45"."""
+    return JOINED.findall(re.sub(r"`[^`]*`|\*", "", text))
+
+
+def not_together(row, page):
+    """Of the cells of a row: those figures with slashes that do not stand together in the text of a page."""
+    known = [f" / {figures} / " for figures in joined(page)]
+    return [figures for cell in row for figures in joined(cell) if not any(f" / {figures} / " in k for k in known)]
 
 
 def cannot_be_typed(command, targets):
@@ -115,8 +128,12 @@ def main(arguments):
             wrong += 1
             continue
         source = page.parent / link.group(1)
+        text = source.read_text(encoding="utf-8")
         if source not in known:
-            known[source] = set(numbers(source.read_text(encoding="utf-8")))
+            known[source] = set(numbers(text))
+        for figures in not_together(row[1:-1], text):
+            print(f"{page.name}:{number}: {figures} does not stand together in {source.name}")
+            wrong += 1
         for figure in numbers(" ".join(row[1:-1])):
             checked += 1
             if figure not in known[source]:

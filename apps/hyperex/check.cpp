@@ -39,7 +39,7 @@ void add_check(CLI::App& program) {
   command->callback([options] {
     std::string cost;
     scene::Scene scene = scene::read_scene(options->scene, options->overrides);
-    if (options->no_variants) scene.variants.clear();
+    if (options->no_variants) scene::leave_out_variants(scene);
     if (!options->no_cache) scene.kept = KeptResults(user_cache_folder());
     take_library_memory();
     const std::vector<Note> found = session::check(scene, &cost);

@@ -125,9 +125,11 @@ std::string words_on_a_long_run(const session::RunCost& whole, const std::string
 
 /// Refuses a table that is no motion. Returns a doubt about one that is very short.
 std::optional<Note> doubt_of_length(const std::string& key, const std::string& file) {
-  if (key == "motion.arkit") return session::short_warning(expression::read_arkit(file).time_s);
+  constexpr auto of_weights = session::Readings::of_weights;
+  if (key == "motion.arkit")
+    return session::short_warning(expression::read_arkit(file).time_s, of_weights);
   if (key == "motion.openface")
-    return session::short_warning(expression::read_openface(file).time_s);
+    return session::short_warning(expression::read_openface(file).time_s, of_weights);
   return std::nullopt;
 }
 

@@ -20,9 +20,19 @@ std::string values_of(const tissue::GivenParameters& given, const char* ending) 
   for (int p = 0; p < tissue::parameter_count; ++p)
     if (given[p])
       text += fmt::format("{}{} = {:g}", text.empty() ? "" : ", ",
-                          *ending ? std::string("young_factor") : tissue::parameter_info(p).key,
+                          *ending ? tissue::factor_key(p) : tissue::parameter_info(p).key,
                           *ending ? *given[p] : *given[p] / tissue::parameter_info(p).si);
   return text;
+}
+
+/// "  layer skin: 1.74 mm, young_factor = 1.272".
+std::string layer_text(const tissue::TissueLayer& layer) {
+  std::string text = layer.thickness_m
+                         ? fmt::format("{:g} mm", kMillimetres.from_si(*layer.thickness_m))
+                         : "the rest";
+  for (const std::string& values : {values_of(layer.value, ""), values_of(layer.factor, "*")})
+    if (!values.empty()) text += ", " + values;
+  return fmt::format("  layer {}: {}\n", layer.name, text);
 }
 
 /// Prints the names that muscles.gain accepts.
@@ -46,6 +56,7 @@ void print_presets() {
     if (!factor.empty()) std::cout << "  everything: " << factor << '\n';
     for (const tissue::TissuePoint& point : preset.points)
       std::cout << fmt::format("  {}: {}\n", point.landmark, values_of(point.value, ""));
+    for (const tissue::TissueLayer& layer : preset.layers) std::cout << layer_text(layer);
   }
   std::cout << "\nPresets, for preset in [[variant]]\n";
   for (const scene::VariantPreset& preset : scene::variant_presets()) {

@@ -32,6 +32,7 @@ struct RigOptions {
   std::filesystem::path scan, landmarks, out;
   std::string unit, names = "arkit";
   std::vector<std::string> overrides;
+  bool correctives = false;
 };
 
 /// Makes text of the numbers that JSON lacks, so that their keys refuse them.
@@ -97,15 +98,51 @@ rig::FaceRig rig_of(const RigOptions& options) {
   session::Face face = face_of(options);
   const session::Changes changes = changes_of(options.overrides);
   try {
-    return rig::make_rig(std::move(face), changes, session::log_note);
+    return rig::make_rig(
+        std::move(face), changes, session::log_note,
+        options.correctives ? rig::Correctives::of_clashing_pairs : rig::Correctives::none);
   } catch (const InputError& error) {
     throw naming_the_option(error, changes);
   }
 }
 
-/// Unreal's Live Link names ARKit's curves with a first capital: EyeBlinkLeft, JawOpen.
+/// Unreal's Live Link names ARKit's curves with a first capital: EyeBlinkLeft, JawOpen. Both names
+/// of a corrective's get one: JawOpen_MouthClose.
 void name_as_unreal_does(std::vector<report::RigShape>& shapes) {
-  for (report::RigShape& shape : shapes) shape.name.front() += 'A' - 'a';
+  for (report::RigShape& shape : shapes) {
+    char before = '_';
+    for (char& letter : shape.name) {
+      if (before == '_') letter += 'A' - 'a';
+      before = letter;
+    }
+  }
+}
+
+/// How deep the lips lie in each other where both shapes of a corrective are at weight 1.
+std::string lips_of(const rig::FaceRig& made, const report::RigShape& corrective) {
+  const auto& [first, second] = *corrective.corrects;
+  const PointsF sum = made.shapes[first].displacement_m + made.shapes[second].displacement_m;
+  return fmt::format("; lips {:.1f} mm in each other without it, {:.1f} mm with it",
+                     1e3 * made.lips->depth(sum),
+                     1e3 * made.lips->depth(sum + corrective.displacement_m));
+}
+
+void print_shapes(const rig::FaceRig& made, const std::string& file, double bytes) {
+  std::size_t width = 20;
+  for (const report::RigShape& shape : made.shapes) width = std::max(width, shape.name.size());
+  for (const report::RigShape& shape : made.shapes)
+    std::cout << fmt::format("{:<{}} {:5.1f} mm{}\n", shape.name, width,
+                             1e3 * shape.displacement_m.rowwise().norm().maxCoeff(),
+                             shape.corrects ? lips_of(made, shape) : "");
+  const auto correctives = std::ranges::count_if(
+      made.shapes, [](const report::RigShape& shape) { return shape.corrects.has_value(); });
+  std::cout << fmt::format(
+      "{} shapes{} of {} vertices (greatest displacement at weight 1); tongueOut moves nothing: "
+      "the tongue stays in the mouth\n"
+      "written to {}: {:.1f} MB\n",
+      made.shapes.size() - std::size_t(correctives),
+      correctives > 0 ? fmt::format(" and {} correctives", correctives) : "",
+      made.performance.skin_rest.points.rows(), printable(file), bytes / 1e6);
 }
 
 void run(const RigOptions& options) {
@@ -124,15 +161,7 @@ void run(const RigOptions& options) {
     bytes = report::write_rig_glb(options.out, made.performance, *made.scan, made.teeth.get(),
                                   made.jaw_axis_m, made.shapes);
   }
-  for (const report::RigShape& shape : made.shapes)
-    std::cout << fmt::format("{:<20} {:5.1f} mm\n", shape.name,
-                             1e3 * shape.displacement_m.rowwise().norm().maxCoeff());
-  std::cout << fmt::format(
-      "{} shapes of {} vertices (greatest displacement at weight 1); tongueOut moves nothing: "
-      "the tongue stays in the mouth\n"
-      "written to {}: {:.1f} MB\n",
-      made.shapes.size(), made.performance.skin_rest.points.rows(), printable(options.out.string()),
-      bytes / 1e6);
+  print_shapes(made, options.out.string(), bytes);
 }
 
 }  // namespace
@@ -156,6 +185,9 @@ void add_rig(CLI::App& program) {
                    "them)")
       ->check(CLI::IsMember({"arkit", "unreal"}))
       ->capture_default_str();
+  command->add_flag("--correctives", options->correctives,
+                    "Also write shapes for combinations that are no sum of two, as "
+                    "jawOpen_mouthClose; the weight of each is the product of the two weights");
   command
       ->add_option("--set", options->overrides,
                    "Override a key of a scene (docs/scene.md), as of muscles or tissue; can be "

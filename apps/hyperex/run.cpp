@@ -72,7 +72,7 @@ void run(const RunOptions& options) {
   if (!options.out)
     throw InputError("--out is required: the folder for the outputs, as in --out out/" +
                      options.scene.stem().string());
-  if (options.no_variants) scene.variants.clear();
+  if (options.no_variants) scene::leave_out_variants(scene);
   if (!options.no_cache) scene.kept = KeptResults(user_cache_folder());
   const auto summary = run::run_scene(scene, *options.out);
   std::cout << fmt::format(

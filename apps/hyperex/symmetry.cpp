@@ -18,6 +18,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/output_file.hpp"
+#include "hyperex/core/printable.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/weight_doubts.hpp"
 #include "hyperex/expression/wild_weights.hpp"
@@ -33,9 +34,11 @@
 #include "hyperex/motion/try_stabilise.hpp"
 #include "hyperex/run/asymmetry_picture.hpp"
 #include "hyperex/run/corner_words.hpp"
+#include "hyperex/run/earlier_run.hpp"
 #include "hyperex/scene/scene.hpp"
 #include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
+#include "hyperex/session/keyframes.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/rig_face.hpp"
@@ -75,6 +78,17 @@ std::optional<session::RecordedJitter> jitter_of_run(const fs::path& folder) {
       1e-3 * jitter_mm, true,
       fmt::format("jitter of the recorded points, from the run's summary.json: {:.2f} mm",
                   jitter_mm)};
+}
+
+/// The folder of the run that wrote this motion.csv, for the scene or for a variant; empty: no run
+/// did.
+fs::path run_that_wrote(const fs::path& motion) {
+  if (motion.filename() != "motion.csv") return {};
+  const fs::path folder = fs::absolute(motion).lexically_normal().parent_path(),
+                 variants = folder.parent_path();
+  const bool of_variant =
+      variants.filename() == "variants" && run::is_folder_of_run(variants.parent_path());
+  return of_variant || run::is_folder_of_run(folder) ? folder : fs::path();
 }
 
 /// The number given by --jitter-mm; nothing for "auto".
@@ -138,8 +152,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion,
       throw InputError(error.sentence("--rigid-points"));
     }
   }
-  const motion::StillPoints still = motion::points_to_hold_the_head(motion);
-  motion::TriedPose tried = motion::try_stabilise(motion, still.names, "--rigid-points");
+  motion::StillPoints still = motion::points_to_hold_the_head(motion);
+  motion::TriedPose tried = still.by_landmarks.empty()
+                                ? motion::try_stabilise(motion, still.names, "--rigid-points")
+                                : motion::TriedPose{std::move(still.by_landmarks.front()), ""};
   if (!tried.why_not.empty())
     std::cerr << "head pose is not taken out, and excursions contain it: " << tried.why_not << '\n';
   else
@@ -179,17 +195,29 @@ void write_map(const SymmetryOptions& options, const SurfaceFrames& frames,
     io::write_ply(options.map_ply, moved, frames.unit, {{"asymmetry_mm", map_mm}});
 }
 
-/// Writes the requested files and prints the remaining results.
-void report(const SymmetryOptions& options, const metrics::SymmetryMeasures& all,
-            const session::RecordedJitter& jitter, const motion::StabilisedMotion& steady) {
+/// Says whose sides are measured. `run`: its folder where they are those of a simulated face.
+void report_whose_sides(const fs::path& run) {
+  if (!run.empty())
+    std::cout << fmt::format(
+        "the sides are those of the face that the run in {} simulated, where a side that is not "
+        "recorded moves as is usual; for recorded sides give the recording itself\n",
+        printable(run.filename().string()));
+}
+
+/// Writes the requested files and prints the remaining results. `run`: as above.
+void report(const SymmetryOptions& options, const fs::path& run,
+            const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
+            const motion::StabilisedMotion& steady) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
+  const std::string whose = run.empty() ? options.motion.filename().string()
+                                        : "the simulated face of " + run.filename().string();
   if (!options.picture.empty())
-    render::write_png(options.picture,
-                      draw(all, "Symmetry of " + options.motion.filename().string()));
+    render::write_png(options.picture, draw(all, "Symmetry of " + whose));
   if (!options.excursions.empty())
     metrics::write_excursions_csv(options.excursions, all.excursions);
   if (!options.out.empty()) metrics::write_symmetry_csv(options.out, all);
+  report_whose_sides(run);
   std::cout << run::corners_line(all.excursions);
   if (options.out.empty() && all.curve.known()) print_curve(all.curve);
   print_excursions(all.excursions);
@@ -230,7 +258,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, all, jitter, stabilised);
+  report(options, {}, all, jitter, stabilised);
 }
 
 /// Throws InputError for points that hold the head's pose where it is not estimated.
@@ -317,7 +345,9 @@ void run(const SymmetryOptions& options) {
   auto [motion, warnings] = session::cleaned_recording(
       motion::until(read(options, file, unit), options.end_s, "--end-s"), readings);
   report_guessed_unit(motion);
-  const std::vector<Note> checked = session::check_alone(motion);
+  if (const auto keyframes = session::keyframes_note(motion, readings))
+    std::cerr << keyframes->text << '\n';
+  const std::vector<Note> checked = session::check_alone(motion, readings);
   metrics::SymmetryMeasures all;
   all.curve = curve_of(motion, options);
   const motion::StabilisedMotion stabilised = without_head(motion, options);
@@ -326,7 +356,7 @@ void run(const SymmetryOptions& options) {
     add(warnings, session::check_steady(steady, readings));
     append(warnings, extent_warnings(options, run_folder, steady));
   }
-  add(warnings, session::coarse_warning(motion));
+  add(warnings, session::coarse_warning(motion, readings));
   append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);
   const session::RecordedJitter jitter = jitter_of(options, steady, run_folder);
@@ -334,7 +364,8 @@ void run(const SymmetryOptions& options) {
   if (jitter.jitter_m > 0 && all.curve.known())
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
   all.excursions = judged_excursions(options, stabilised, jitter);
-  report(options, all, jitter, stabilised);
+  const fs::path simulated = options.rig.empty() ? run_that_wrote(file) : fs::path();
+  report(options, simulated, all, jitter, stabilised);
 }
 
 /// Options that concern a folder of surfaces.
@@ -377,8 +408,9 @@ void add_symmetry(CLI::App& program) {
       "asymmetry (docs/symmetry.md). No medical device.");
   command
       ->add_option("MOTION", options->motion,
-                   "Named points over time, CSV or TRC; a run's folder; or a folder of PLY or OBJ "
-                   "files, one per frame, the first at rest")
+                   "Named points over time, CSV or TRC; a run's folder, for the sides of the face "
+                   "that it simulated; or a folder of PLY or OBJ files, one per frame, the first "
+                   "at rest")
       ->required();
   command->add_option("--rig", options->rig,
                       "A glTF or GLB file with morph targets of ARKit's names: MOTION has their "

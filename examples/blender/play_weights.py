@@ -8,8 +8,12 @@ OUT may also be .fbx or .glb: the animated face as Blender exports it, for Unrea
 WEIGHTS.csv has a column time_s, time or timestamp (seconds), or Timecode as Live Link Face writes it, and columns named
 after blend shapes. Each mesh of the rig takes the shapes that it has: the skin all of them, the eyes those of gaze, the
 lower teeth those of the jaw.
+
+A corrective, as jawOpen_mouthClose, has the product of the values of its two shapes. In a .blend drivers compute it, so
+that it also follows values that are changed by hand. Other files know no drivers, and it gets a key at every frame.
 """
 import csv
+import math
 import os
 import sys
 
@@ -52,22 +56,94 @@ def read_weights(file):
     return times, weights
 
 
-def key_shapes(mesh, times, weights):
-    """Animates the shapes that both have; how many."""
+def corrected(name, shapes):
+    """The names of the two shapes whose combination a corrective corrects; None where the name is none of two.
+
+    A shape's own name may have an underscore, as mouthSmile_L.
+    """
+    parts = name.split("_")
+    for at in range(1, len(parts)):
+        first, second = "_".join(parts[:at]), "_".join(parts[at:])
+        if first in shapes and second in shapes and first != second:
+            return first, second
+    return None
+
+
+def key_shape(mesh, name, times, values):
+    curve = mesh.shape_keys.animation_data_create()
+    curve.action = curve.action or bpy.data.actions.new(f"{mesh.name} weights")
+    points = curve.action.fcurves.new(f'key_blocks["{name}"].value').keyframe_points
+    points.add(len(times))
+    for point, time, value in zip(points, times, values):
+        point.co = (1 + time * FRAME_RATE, value)
+        point.interpolation = "LINEAR"
+
+
+def key_shapes(mesh, skin, times, weights):
+    """Animates the shapes that both have, but for correctives; how many. `skin`: shape keys of all shapes."""
     animated = 0
     for key in mesh.shape_keys.key_blocks:
         values = weights.get(key.name.lower())  # jawOpen, JawOpen
-        if values is None or not any(values):
+        if values is None or not any(values) or corrected(key.name, skin.key_blocks):
             continue
-        curve = mesh.shape_keys.animation_data_create()
-        curve.action = curve.action or bpy.data.actions.new(f"{mesh.name} weights")
-        points = curve.action.fcurves.new(f'key_blocks["{key.name}"].value').keyframe_points
-        points.add(len(times))
-        for point, time, value in zip(points, times, values):
-            point.co = (1 + time * FRAME_RATE, value)
-            point.interpolation = "LINEAR"
+        key_shape(mesh, key.name, times, values)
         animated += 1
     return animated
+
+
+def product(times, first, second):
+    """Times and values of the product of two weights: at the rows, and at each whole frame between them.
+
+    Weights run straight from row to row. Their product does not.
+    """
+    at, values = [], []
+    for row, time in enumerate(times):
+        if row > 0:
+            begin = times[row - 1]
+            after, before = begin * FRAME_RATE + 1e-6, time * FRAME_RATE - 1e-6
+            for frame in range(math.floor(after) + 1, math.ceil(before)):
+                share = (frame / FRAME_RATE - begin) / (time - begin)
+                a, b = (of[row - 1] + share * (of[row] - of[row - 1]) for of in (first, second))
+                at.append(frame / FRAME_RATE)
+                values.append(a * b)
+        at.append(time)
+        values.append(first[row] * second[row])
+    return at, values
+
+
+def key_correctives(mesh, skin, times, weights):
+    """Animates the correctives by the products of two weights; how many of them move."""
+    animated = 0
+    for key in mesh.shape_keys.key_blocks:
+        pair = corrected(key.name, skin.key_blocks)
+        both = [weights.get(name.lower()) for name in pair or ()]
+        if not pair or None in both:
+            continue
+        at, values = product(times, *both)
+        if any(values):
+            key_shape(mesh, key.name, at, values)
+            animated += 1
+    return animated
+
+
+def drive_correctives(mesh, skin):
+    """Lets a driver give each corrective the product of the skin's two values; how many."""
+    driven = 0
+    for key in mesh.shape_keys.key_blocks:
+        pair = corrected(key.name, skin.key_blocks)
+        if not pair:
+            continue
+        driver = key.driver_add("value").driver
+        driver.type = "SCRIPTED"
+        for letter, name in zip("ab", pair):
+            variable = driver.variables.new()
+            variable.name = letter
+            variable.targets[0].id_type = "KEY"
+            variable.targets[0].id = skin
+            variable.targets[0].data_path = f'key_blocks["{name}"].value'
+        driver.expression = "a * b"
+        driven += 1
+    return driven
 
 
 def save(out):
@@ -95,11 +171,18 @@ def main(rig, recording, out):
     scene.render.fps = FRAME_RATE
     scene.frame_start, scene.frame_end = 1, 1 + round(times[-1] * FRAME_RATE)
     moving = 0
-    for item in bpy.data.objects:
-        if item.type == "MESH" and item.data.shape_keys:
-            animated = key_shapes(item.data, times, weights)
-            moving += animated
-            print(f"{item.name}: {animated} shapes move")
+    meshes = [item for item in bpy.data.objects if item.type == "MESH" and item.data.shape_keys]
+    skin = max((item.data.shape_keys for item in meshes), key=lambda keys: len(keys.key_blocks), default=None)
+    for item in meshes:
+        animated = key_shapes(item.data, skin, times, weights)
+        moving += animated
+        print(f"{item.name}: {animated} shapes move")
+        if out.lower().endswith(".blend"):
+            correctives = drive_correctives(item.data, skin)
+        else:
+            correctives = key_correctives(item.data, skin, times, weights)
+        if correctives:
+            print(f"{item.name}: {correctives} correctives follow")
     if moving == 0:
         sys.exit(f"{recording}: no column is named after a shape of {rig} with a weight other than 0")
     save(os.path.abspath(out))

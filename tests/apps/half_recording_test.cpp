@@ -57,6 +57,37 @@ TEST_F(OtherRecordings, ACornerThatIsNotRecordedHasNoFigure) {
   EXPECT_EQ(curves.rows.back()[1], "") << curves.names[1];
   EXPECT_NE(curves.rows.back()[2], "") << curves.names[2];
   EXPECT_EQ(curves.rows.back()[3], "") << curves.names[3];
+  // The run's folder has both sides of the simulated face, and is said to.
+  const std::string variant = summary()["variants"]["table"][1]["folder"];
+  for (const std::string& file :
+       {std::string("out"), "out/" + variant, std::string("out/motion.csv")}) {
+    const Outcome simulated = call("symmetry " + file);
+    EXPECT_EQ(simulated.status, 0) << simulated.err;
+    EXPECT_THAT(simulated.out, HasSubstr("the sides are those of the face that the run in "));
+    EXPECT_THAT(simulated.out, HasSubstr("; for recorded sides give the recording itself\n"));
+  }
+  const Outcome recorded = call("symmetry motion.csv");
+  EXPECT_EQ(recorded.status, 0) << recorded.err;
+  EXPECT_THAT(recorded.out, testing::Not(HasSubstr("the sides are those")));
+}
+
+/// What stands in for the points of S(t) is told in between, which sends all that was printed.
+TEST_F(OtherRecordings, ARunsSidesAreToldBehindTheTableAndNotOfACt) {
+  std::filesystem::create_directory(in("made"));
+  write_opening(in("made"), 0, 16, [](motion::Motion& m) {
+    std::vector<std::string> others;
+    for (const std::string& name : m.names)
+      if (!name.starts_with("ibug68_")) others.push_back(name);
+    leave_out(m, others);
+  });
+  for (const auto& [more, of_a_run] : {std::pair{"", true}, {", \"command\": \"ct\"", false}}) {
+    put(in("made/summary.json"), std::string("{\"program\": \"hyperex\"") + more + "}");
+    const Outcome told = call("symmetry made/motion.csv --out /dev/stdout");
+    EXPECT_EQ(told.status, 0) << told.err;
+    EXPECT_THAT(told.err, HasSubstr("stand-in for "));
+    EXPECT_THAT(told.out, testing::StartsWith("time_s,xi_"));
+    EXPECT_EQ(told.out.find("the sides are those of the face") != std::string::npos, of_a_run);
+  }
 }
 
 /// A marker between the lips goes half the way of the lower one. Were it driven, it would draw the

@@ -69,6 +69,8 @@ const std::vector<Fault> kScenes{
         {"tissue.region[0].young_factor", "-1", "above 0"}),
     key("IndefiniteAfterAFactor", "tissue.region=[{name=\"nose\", poisson_factor=1.02}]",
         {"tissue.region[0].poisson_factor", "1.02", "from -0.99 to 0.4999", "0.5049"}),
+    key("NegativeThicknessOfALayer", "tissue.layer=[{thickness_mm=-2, young_factor=2}]",
+        {"tissue.layer[0].thickness_mm", "-2", "above 0 to 40"}),
     key("PointOnTheOtherSide", "tissue.point=[{landmark=\"cheek_R\", side=\"L\", young_kpa=3}]",
         {"tissue.point[0].side", "L", "cheek_R lies on the subject's right"}),
     key("NoSuchRegion", "tissue.region=[{name=\"cheeks_R\", young_factor=2}]",

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <opencv2/imgcodecs.hpp>
 #include <utility>
 
@@ -68,7 +69,36 @@ TEST_F(NewCommand, ItsVariantIsLeftOutOfTheCheckAsOfARun) {
   EXPECT_THAT(call("check me.toml").out, HasSubstr("; without its variant, "));
   const Outcome checked = call("check me.toml --no-variants");
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, HasSubstr("on two idle processors\n"));
+  EXPECT_THAT(checked.out, HasSubstr("on two idle processors; contact adds up to "));
+  EXPECT_THAT(checked.out, testing::Not(HasSubstr("without its variant")));
+}
+
+/// A gain on a muscle that rests would answer nothing.
+TEST_F(NewCommand, SuggestsMusclesThatASmileUses) {
+  ASSERT_EQ(
+      call("new embedded '" HYPEREX_SOURCE_DIR "/examples/smile_arkit.csv' --out me.toml").status,
+      0);
+  const std::string scene = read_file(in("me.toml")), words = "; one muscle: ";
+  const auto at = scene.find(words);
+  ASSERT_NE(at, std::string::npos) << scene;
+  const std::string muscle =
+      scene.substr(at + words.size(), scene.find('\n', at) - at - words.size());
+  put(in("me.toml"),
+      scene + "\n[[variant]]\nname = \"one muscle\"\nmuscles.gain = { " + muscle + " = 0.3 }\n");
+  const Outcome run = call(
+      "run me.toml --out out --set output.vtu=false --set output.glb=false --set "
+      "output.report=false");
+  ASSERT_EQ(run.status, 0) << run.err;
+  const nlohmann::json found = summary();
+  for (const auto& remark : found["remarks"])
+    EXPECT_THAT(remark["id"].get<std::string>(), testing::Not(HasSubstr("hardly_used")))
+        << remark["text"];
+  const nlohmann::json& table = found["variants"]["table"];
+  ASSERT_EQ(table.size(), 3u);
+  for (const std::size_t variant : {1, 2})
+    EXPECT_LT(table[variant]["commissure_R_mm"].get<double>(),
+              0.95 * table[0]["commissure_R_mm"].get<double>())
+        << variant;
 }
 
 TEST_F(NewCommand, NamesFilesAsSeenFromTheScenesFolder) {
@@ -106,8 +136,8 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
                                   "head_6, which keep still against each other"));
   // A scene that does not name them is told so.
   const std::string sentence =
-      "while head_1, head_2, head_3, head_4, head_5, head_6 keep their distances from each other, "
-      "as points of the skull do, and are not used; ";
+      "while head_1, head_2, head_3, head_4, head_5, head_6 keep still against each other, as "
+      "points of the skull do, and are not used; ";
   EXPECT_THAT(call("check scene.toml").out,
               HasSubstr(sentence + "name them in motion.rigid_points"));
   put(in("v.toml"),
@@ -130,6 +160,30 @@ TEST_F(NewCommand, NamesTheBandOfAFileThatHasLandmarksToo) {
        {call("check me.toml --set scan.landmarks=face_landmarks.json").out,
         call("symmetry motion.csv --jitter-mm 0 --rigid-points head_1,head_2,head_3").err})
     EXPECT_THAT(used, testing::Not(HasSubstr("are not used")));
+}
+
+TEST_F(NewCommand, AShortGapCostsNoMarkerOfTheBand) {
+  const std::string band =
+      "rigid_points = [\"head_1\", \"head_2\", \"head_3\", \"head_4\", \"head_5\", "
+      "\"head_6\"]";
+  const auto write = [&](bool loses_a_sample) {
+    write_opening(in(""), 0, 41, [&](motion::Motion& m) {
+      add_headband(m);
+      const double nan = std::numeric_limits<double>::quiet_NaN();
+      for (std::size_t k = 20; k < 23; ++k)
+        m.positions[k].row(m.index_of("head_3")).setConstant(nan);
+      if (loses_a_sample) m.positions[10].setConstant(nan);
+    });
+  };
+  write(true);
+  ASSERT_EQ(call("new face.ply motion.csv --out lost.toml").status, 0);
+  EXPECT_THAT(read_file(in("lost.toml")), HasSubstr(band));
+  EXPECT_EQ(call("check lost.toml").status, 0);
+  write(false);
+  ASSERT_EQ(call("new face.ply motion.csv --out me.toml").status, 0);
+  EXPECT_THAT(read_file(in("me.toml")), HasSubstr(band));
+  EXPECT_THAT(call("symmetry motion.csv").err,
+              HasSubstr("the head is held by head_1, head_2, head_3, head_4, head_5, head_6, "));
 }
 
 TEST_F(NewCommand, SaysAtOnceWhatARunWouldRefuse) {
@@ -273,6 +327,13 @@ TEST_F(NewCommand, RefusesARecordingOfOneSampleAndWarnsOfAFew) {
   EXPECT_THAT(call("check few.toml").out,
               testing::AllOf(HasSubstr("warning: the recording has 2 samples"),
                              HasSubstr("but one warning")));
+  // Keyframes are few by intention.
+  put(in("keys.csv"), first + "0.3,0.5\n1,0\n");
+  EXPECT_THAT(call("new embedded keys.csv --out keys.toml").err,
+              testing::Not(HasSubstr("3 samples")));
+  EXPECT_THAT(call("check keys.toml").out,
+              testing::AllOf(HasSubstr("3 rows are taken for keyframes"),
+                             HasSubstr("no problems found in what was checked\n")));
 }
 
 TEST_F(NewCommand, RefusesAPictureAsAMotionAsCheckAndRunDo) {

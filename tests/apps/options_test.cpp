@@ -92,12 +92,13 @@ TEST_F(Options, FiniteStrainItsLawAndItsSolver) {
 }
 
 TEST_F(Options, EachContactHasItsOwnFigure) {
-  EXPECT_FALSE(pressed("").contains("contact"));
+  EXPECT_FALSE(pressed("--set contact.lips=false").contains("contact"));
   const std::map<std::string, std::string> figures = {
       {"lips", "lip_overlap"}, {"teeth", "in_teeth"}, {"eyes", "in_eyes"}};
   for (const auto& [key, figure] : figures) {
     SCOPED_TRACE(key);
-    const json contact = pressed("--set contact." + key + "=true").at("contact");
+    const std::string lips = key == "lips" ? "" : "--set contact.lips=false ";
+    const json contact = pressed(lips + "--set contact." + key + "=true").at("contact");
     EXPECT_GT(contact.at("frames").get<int>(), 0);
     for (const auto& [other, name] : figures)
       EXPECT_EQ(contact.contains(name + "_mm"), other == key) << other;
@@ -105,6 +106,7 @@ TEST_F(Options, EachContactHasItsOwnFigure) {
     EXPECT_GT(without, 0.1);
     EXPECT_LT(with, 0.3 * without);
   }
+  EXPECT_TRUE(pressed("").at("contact").contains("lip_overlap_mm")) << "by default";
 }
 
 }  // namespace

@@ -194,6 +194,14 @@ TEST_F(Outputs, ARunSaysThatItReplacesAnEarlierOne) {
   EXPECT_FALSE(fs::exists(in("out/variants")));
 }
 
+TEST_F(Outputs, WithoutItsFiniteVariantARunKeepsTheLipsApart) {
+  std::ofstream(in("scene.toml"), std::ios::app)
+      << "[[variant]]\nname = \"finite\"\ntissue.strain = \"finite\"\n";
+  const Outcome run = call("run scene.toml --out out --no-variants");
+  ASSERT_EQ(run.status, 0) << run.err;
+  EXPECT_EQ(summary()["options"]["contact"]["lips"], true);
+}
+
 TEST_F(Outputs, AVariantsNameMayHoldAComma) {
   add_variant("stiff, both (x2)");
   expect_run("out");

@@ -82,6 +82,19 @@ TEST_F(RigRoundTrip, TheTissueFollowsTheRigByTheMillimetresThatItMeasures) {
   EXPECT_GT(cell("rig.csv", "cheilion", "excursion_L_mm"), 6);
 }
 
+TEST_F(RigRoundTrip, CorrectivesAreListedAndPlayed) {
+  const Outcome made = call(
+      "rig embedded --out rig.glb --correctives --names unreal --set mesh.element_size_mm=8 "
+      "--set mesh.layers=1 --set muscles.shape_prior=false");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("52 shapes and 7 correctives of "));
+  EXPECT_THAT(made.out, testing::ContainsRegex("JawOpen_MouthClose  +[0-9.]+ mm; lips [0-9.]+ mm "
+                                               "in each other without it, [0-9.]+ mm with it"));
+  EXPECT_THAT(read_file(in("rig.glb")), HasSubstr("\"MouthFunnel_MouthSmileRight\""));
+  const Outcome measured = call("symmetry weights.csv --rig rig.glb");
+  EXPECT_EQ(measured.status, 0) << measured.err;
+}
+
 TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   const auto refused = [&](const std::string& arguments, int status, const std::string& part) {
     const Outcome found = call(arguments);

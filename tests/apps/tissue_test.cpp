@@ -2,12 +2,15 @@
 // Tissue that varies over the face, end to end.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/good_inputs.hpp"
 #include "apps/program.hpp"
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/io/csv.hpp"
 #include "hyperex/io/scan.hpp"
+#include "support/vtu_reader.hpp"
 
 namespace hyperex {
 namespace {
@@ -78,12 +81,39 @@ TEST_F(Tissue, AStiffCheekMovesMoreEvenlyAndLessTowardsTheJaw) {
   EXPECT_FALSE(std::filesystem::exists(in("mouth_open/tissue_map.png")));
 }
 
+/// Two rows of elements of 3 mm: the upper one holds all of the skin.
+TEST_F(Tissue, LayersAreInTheFramesAndInTheSummary) {
+  put(in("layers.toml"),
+      "scan = { file = \"embedded\" }\nmotion = { file = \"embedded\" }\n"
+      "mesh = { element_size_mm = 12, layers = 2, thickness_mm = 6 }\n"
+      "time = { step_s = 0.01, end_s = 0.2, frame_rate_hz = 10 }\n"
+      "output = { glb = false, report = false, picture_times_s = [0] }\n"
+      "tissue.young_kpa = 100\n"
+      "tissue.layer = [{ name = \"skin\", thickness_mm = 2, young_factor = 4 }]\n");
+  const Outcome run = call("run layers.toml --out layers");
+  ASSERT_EQ(run.status, 0) << run.err;
+  std::vector<float> young =
+      test::unpacked<float>(read_file(in("layers/frames/frame_0000.vtu")), "Young[^\"]*");
+  ASSERT_GT(young.size(), 100u);
+  std::ranges::sort(young);
+  EXPECT_EQ(young.front(), 100);
+  EXPECT_LE(young.back(), 400);
+  // Half of the elements lie below the skin; where the layer was not thinned the others are mixed.
+  EXPECT_EQ(young[young.size() / 3], 100);
+  EXPECT_NEAR(young[young.size() * 2 / 3], 300, 1);
+  const auto summary = nlohmann::json::parse(read_file(in("layers/summary.json")));
+  EXPECT_EQ(summary["tissue"]["young_kpa"][0], 100);
+  EXPECT_EQ(summary["options"]["tissue"]["layer"][0]["name"], "skin");
+  EXPECT_FALSE(std::filesystem::exists(in("layers/tissue_map.png"))) << "the skin is uniform";
+}
+
 TEST_F(Tissue, PresetsAreListedWithTheirSources) {
   const Outcome listed = call("presets");
   EXPECT_EQ(listed.status, 0);
   for (const char* text :
        {"source_model_2", "young_kpa = 205.6", "aged_skin", "source: ", "cheek", "philtrum",
-        "palsy_zygomatic_L", "muscles.gain = {\"zygomatic_L\" = 0}", "assumed: "})
+        "layer fat: 3.375 mm, young_factor = 0.16", "layer deep: the rest", "palsy_zygomatic_L",
+        "muscles.gain = {\"zygomatic_L\" = 0}", "assumed: "})
     EXPECT_THAT(listed.out, HasSubstr(text));
 }
 

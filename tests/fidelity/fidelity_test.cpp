@@ -19,6 +19,7 @@
 #include "hyperex/session/face_session.hpp"
 #include "hyperex/session/inputs.hpp"
 #include "support/estimated_bones.hpp"
+#include "support/smile_muscles.hpp"
 
 namespace hyperex {
 namespace {
@@ -154,6 +155,8 @@ TEST_P(FidelityOf, IsAsGoodAsItWas) {
   EXPECT_LT(e.simulated[1], c.lips_mm) << "lips, mm";
   EXPECT_LT(e.simulated[0], e.still[0]);
   if (std::string(c.rest) == kRest) expect_smooth_rim(c);
+  if (std::string(c.name) == "RealSmileSeven")
+    test::expect_zygomaticus_smiles(in("out/activations.csv"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Case, FidelityOf, testing::ValuesIn(kCases),

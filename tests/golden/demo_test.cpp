@@ -2,7 +2,7 @@
 // Compares the summaries of the demo and of examples/variants.toml with values kept in
 // demo_summary.json, and two runs of the demo with each other. After an intended change of the
 // numbers,
-//   ctest --test-dir build/release -R golden.run
+//   ctest --test-dir build/release -R 'golden.(run|first)'
 //   HYPEREX_GOLDEN_UPDATE=1 build/release/bin/test_golden
 // writes each value outside its tolerance into the file and empties its reason, which may no longer
 // be true. Write a new reason: an empty one fails the test.
@@ -20,6 +20,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv.hpp"
+#include "support/smile_muscles.hpp"
 
 namespace hyperex {
 namespace {
@@ -111,6 +112,10 @@ TEST(Demo, GivesTheSameTwice) {
     EXPECT_GT(first.size(), 1000u) << file;
     EXPECT_TRUE(first == read_file(kRuns / "again" / file)) << file << " differs";
   }
+}
+
+TEST(Demo, SmilesWithTheSmilesMuscle) {
+  test::expect_zygomaticus_smiles(kRuns / "first_minute" / "activations.csv");
 }
 
 TEST(Demo, LeavesAllItsFiles) {

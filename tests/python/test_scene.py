@@ -92,6 +92,15 @@ class TissueFields(unittest.TestCase):
         self.assertEqual(hyperex.tissue_field(coarse_mesh(), face(), options).young_pa.tolist(),
                          scene.options.tissue.young_pa.tolist())
 
+    def test_layers(self):
+        options = hyperex.TissueFieldOptions(layers=[
+            hyperex.TissueLayer(name="skin", thickness_m=0.002, young_factor=5), hyperex.TissueLayer(name="deep")])
+        young = hyperex.tissue_field(coarse_mesh(), face(), options).young_pa
+        self.assertTrue(192.4e3 < young.min() < young.max() <= 5 * 192.4e3)
+        options.layers = [hyperex.TissueLayer(thickness_m=2, young_factor=5)]   # millimetres for metres
+        with self.assertRaisesRegex(hyperex.InputError, r"tissue.layer\[0\].thickness_mm"):
+            hyperex.tissue_field(coarse_mesh(), face(), options)
+
     def test_added_volume(self):
         options = hyperex.TissueFieldOptions(regions=[
             hyperex.TissueRegion(name="cheek_R", volume_m3=2e-6)])

@@ -307,7 +307,8 @@ const std::vector<NotedScene>& noted_scenes() {
        nullptr},
       {"drive.by_key", false, "support.field_kpa_per_mm=5", nullptr},
       {"skin.far_from_scan", false, "mesh.element_size_mm=15", nullptr},
-      {"lips.pass_through", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
+      {"lips.pass_through", false,
+       "drive.by=\"displacement\"\nmotion.gain=5\ncontact.lips=false\ntime.end_s=0.5",
        press_the_lips},
       {"tissue.inverted", false, "drive.by=\"displacement\"\nmotion.gain=5\ntime.end_s=0.5",
        press_the_lips},
@@ -328,7 +329,7 @@ const std::vector<NotedScene>& noted_scenes() {
        "tissue.young_kpa=100",
        nullptr},
       {"variant.lips_pass_through", false,
-       "drive.by=\"displacement\"\nmotion.gain=0.05\ntime.end_s=0.5\n"
+       "drive.by=\"displacement\"\nmotion.gain=0.05\ncontact.lips=false\ntime.end_s=0.5\n"
        "variant=[{name=\"more\", motion={gain=5}}]",
        press_the_lips},
       {"muscles.gain_hardly_used", false, "muscles.gain={corrugator_L=0.3}", nullptr},

@@ -43,9 +43,14 @@ test('the rig is valid glTF with ARKit’s names', { skip }, async () => {
   assert.deepEqual(report.issues.messages.filter((m) => m.severity <= 1), [], 'errors and warnings');
 });
 
-test('--names unreal writes them as Live Link has them', { skip }, () => {
-  assert.deepEqual(
-    namesIn(rigOf('--names', 'unreal')), namesIn(rig).map((name) => name[0].toUpperCase() + name.slice(1)));
+test('--names unreal writes them as Live Link has them, and --correctives adds valid ones behind', { skip }, async () => {
+  const bytes = rigOf('--names', 'unreal', '--correctives');
+  const names = namesIn(bytes);
+  assert.deepEqual(names.slice(0, 52), namesIn(rig).map((name) => name[0].toUpperCase() + name.slice(1)));
+  assert.equal(names.length, 59);
+  assert.ok(names.slice(52).every((name) => name.split('_').every((part) => names.slice(0, 52).includes(part))));
+  const report = await validator.validateBytes(new Uint8Array(bytes));
+  assert.deepEqual(report.issues.messages.filter((m) => m.severity <= 1), [], 'errors and warnings');
 });
 
 /** The lines of docs/rig.md that play a rig in three.js. */

@@ -86,7 +86,8 @@ constexpr NoteKind kKinds[] = {
     "One corner of the mouth is recorded, and the other is not. A run simulates that side from what "
     "is usual; it gives no figures of that corner, and none that compare the two."),
   warning("recording.coarse", "motion.file",
-    "The samples are more than 0.1 s apart: quicker motions between two samples are lost."),
+    "The samples are more than 0.1 s apart: quicker motions between two samples are lost. Not said "
+    "of keyframes (recording.keyframes)."),
   warning("recording.short", "motion.file",
     "The recording has fewer than five samples: what the face does between them is interpolated."),
   warning("recording.shapes_lost", "motion.arkit",
@@ -197,6 +198,9 @@ constexpr NoteKind kKinds[] = {
   note("recording.source", "motion.recording", "What the camera or the video reader reports."),
   note("recording.unit", "motion.unit", "The recording's unit, and how it is known."),
   note("recording.timing", "motion.file", "How long the recording lasts, and its sampling."),
+  note("recording.keyframes", "motion.arkit",
+    "A table of weights has up to 30 rows more than 0.1 s apart (median) at times that no device "
+    "would sample at: uneven, or more than 0.5 s apart within 33 s. They are taken for keyframes."),
   note("recording.gaps_filled", "motion.max_gap_s", "Gaps of the recording were interpolated."),
   note("recording.lead_in", "motion.rest_s",
     "The face is not at rest where the run begins in the recording: the run leads face and eyes "
@@ -223,6 +227,9 @@ constexpr NoteKind kKinds[] = {
     "Values per vertex are in another order than the scan's vertices and were matched by place."),
   note("tissue.values_averaged", "tissue.per_vertex",
     "Several vertices of a file with different values lie at one vertex of the scan."),
+  note("tissue.layers_end", "tissue.layer",
+    "The tissue is too thin for its deepest layer under one per cent of the skin or more: the layers "
+    "above it end at the inner surface there."),
   note("mesh.unchecked", "mesh.element_size_mm",
     "`hyperex check` makes no mesh of more than 40,000 nodes, nor of a scan of more than 300,000 "
     "vertices: it does not check what a run finds on it."),

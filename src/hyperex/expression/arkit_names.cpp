@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/expression/arkit_names.hpp"
 
+#include <algorithm>
+
 namespace hyperex::expression {
 
 std::vector<std::string> arkit_names(const std::string& pattern) {
@@ -28,6 +30,20 @@ const std::vector<std::string>& arkit_shapes() {
     return all;
   }();
   return names;
+}
+
+std::string arkit_name_of(std::string written) {
+  const auto known = [](const std::string& one) {
+    const auto& all = arkit_shapes();
+    return std::find(all.begin(), all.end(), one) != all.end();
+  };
+  if (!written.empty() && written.front() >= 'A' && written.front() <= 'Z')
+    written.front() += 'a' - 'A';
+  if (known(written)) return written;
+  if (!written.ends_with("_L") && !written.ends_with("_R")) return "";
+  const std::string bare = written.substr(0, written.size() - 2);
+  const std::string sided = bare + (written.back() == 'L' ? "Left" : "Right");
+  return known(sided) ? sided : known(bare) ? bare : "";
 }
 
 }  // namespace hyperex::expression

@@ -12,4 +12,8 @@ const std::vector<std::string>& arkit_shapes();
 /// for a name without a star, the name itself; for "", none.
 std::vector<std::string> arkit_names(const std::string& pattern);
 
+/// ARKit's name of a shape, in whose place rigs write JawOpen, mouthSmile_L or, where ARKit knows
+/// no sides, browInnerUp_L; empty where it is none.
+std::string arkit_name_of(std::string written);
+
 }  // namespace hyperex::expression

@@ -298,6 +298,8 @@ motion::Motion motion_of(const BlendShapes& recorded, const FaceModel& model,
     alpha.col(static_cast<Eigen::Index>(u)) =
         mean_of(unit.arkit) / unit.arkit_scale -
         mean_of(unit.arkit_negative) / unit.arkit_negative_scale;
+    if (!unit.arkit_factor.empty())
+      alpha.col(static_cast<Eigen::Index>(u)).array() *= mean_of(unit.arkit_factor).array();
   }
   if (used.empty() && std::ranges::none_of(shapes.names, is_gaze))
     throw InputError(shapes.file, fmt::format("moves nothing of the {} face: it has none of {}",

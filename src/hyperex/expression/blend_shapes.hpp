@@ -51,10 +51,11 @@ BlendShapes read_openface(const std::filesystem::path& file);
 /// units and recorded units. The weight of a unit is w+ / arkit_scale - w- / arkit_negative_scale.
 /// Here w+ is the mean of the blend shapes that the unit's `arkit` names, and w- the mean of those
 /// that its `arkit_negative` names. A name with "*" means two blend shapes, one with Left and one
-/// with Right in its place. The points are in the model's frame and size, without head pose. They
-/// are NaN where the face was not seen. Adds a note on blend shapes that the model does not have,
-/// except those of gaze, which turn the eyes (gaze.hpp). A gaze aside alone leaves points at rest.
-/// Where the model says so (lids_once), lids follow the gaze as with_lids_once() states.
+/// with Right in its place. Where the unit has an `arkit_factor`, its weight is multiplied by the
+/// weight of that blend shape. The points are in the model's frame and size, without head pose.
+/// They are NaN where the face was not seen. Adds a note on blend shapes that the model does not
+/// have, except those of gaze, which turn the eyes (gaze.hpp). A gaze aside alone leaves points at
+/// rest. Where the model says so (lids_once), lids follow the gaze as with_lids_once() states.
 /// Throws InputError if no blend shape moves the model or the eyes.
 motion::Motion motion_of(const BlendShapes& shapes, const FaceModel& model,
                          std::vector<std::string>& notes);

@@ -16,6 +16,9 @@ struct DeformationUnit {
                      ///< empty
   /// Names of ARKit's blend shapes for positive and for negative weights; may be empty.
   std::string arkit, arkit_negative;
+  /// The blend shape whose weight multiplies the unit's: a corrective's second one
+  /// (correctives.hpp). Empty: none.
+  std::string arkit_factor;
   /// Weight of `arkit` = arkit_scale * weight, that of `arkit_negative` = arkit_negative_scale *
   /// -weight; each from 0 to 1.
   double arkit_scale = 1, arkit_negative_scale = 1;

@@ -1,31 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/expression/rig_model.hpp"
 
-#include <algorithm>
 #include <numeric>
+#include <optional>
+#include <set>
 
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/arkit_names.hpp"
+#include "hyperex/expression/correctives.hpp"
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/geometry/sided_triangles.hpp"
 
 namespace hyperex::expression {
 namespace {
 
-/// ARKit's name of a shape, in whose place rigs write JawOpen, mouthSmile_L or, where ARKit knows
-/// no sides, browInnerUp_L; empty where it is none.
-std::string arkit_name(std::string name) {
-  const auto known = [](const std::string& one) {
-    const auto& all = arkit_shapes();
-    return std::find(all.begin(), all.end(), one) != all.end();
-  };
-  if (!name.empty() && name.front() >= 'A' && name.front() <= 'Z') name.front() += 'a' - 'A';
-  if (known(name)) return name;
-  if (!name.ends_with("_L") && !name.ends_with("_R")) return "";
-  const std::string bare = name.substr(0, name.size() - 2);
-  const std::string sided = bare + (name.back() == 'L' ? "Left" : "Right");
-  return known(sided) ? sided : known(bare) ? bare : "";
-}
+/// The names of ARKit's, or of pairs of them, by which weights move a rig's shapes.
+class Drivers {
+ public:
+  explicit Drivers(const std::vector<io::MorphShape>& shapes) {
+    for (const io::MorphShape& shape : shapes) known_.insert(arkit_name_of(shape.name));
+    known_.erase("");
+  }
+  /// Sets arkit and arkit_factor of the unit of a shape. Returns false where nothing moves it.
+  bool name(const std::string& shape, DeformationUnit& unit) const {
+    unit.arkit = arkit_name_of(shape);
+    if (!unit.arkit.empty()) return true;
+    const std::optional<ShapePair> pair = corrected_pair(shape);
+    if (!pair || !known_.contains(pair->first) || !known_.contains(pair->second)) return false;
+    unit.arkit = pair->first;
+    unit.arkit_factor = pair->second;
+    return true;
+  }
+
+ private:
+  std::set<std::string> known_;
+};
 
 }  // namespace
 
@@ -47,11 +56,11 @@ FaceModel rig_model(const io::ShapedMesh& rig, const io::Landmarks& landmarks,
   model.mesh.points.resize(count, 3);
   for (Eigen::Index i = 0; i < count; ++i)
     model.mesh.points.row(i) = places[static_cast<std::size_t>(i)].point.transpose();
+  const Drivers drivers(rig.shapes);
   for (const io::MorphShape& shape : rig.shapes) {
     DeformationUnit unit;
     unit.name = shape.name;
-    unit.arkit = arkit_name(shape.name);
-    if (unit.arkit.empty()) continue;
+    if (!drivers.name(shape.name, unit)) continue;
     unit.vertices.resize(places.size());
     std::iota(unit.vertices.begin(), unit.vertices.end(), 0);
     unit.displacement_m = Points::Zero(count, 3);

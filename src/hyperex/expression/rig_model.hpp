@@ -22,9 +22,10 @@ struct RigLips {
 
 /// A rig of ARKit's blend shapes as a face model, for motion_of(): its vertices are the landmarks
 /// alone, each at the point of the skin nearest to the given one (a lip's on that lip), and each
-/// shape with one of ARKit's names is a recorded unit ("JawOpen" and "mouthSmile_L" count too). So
-/// weights move the landmarks as they move the rig. `landmarks`: metres, on the rig at rest. Throws
-/// InputError, naming `file`, if no shape has one of ARKit's names or if there are no landmarks.
+/// shape with one of ARKit's names is a recorded unit ("JawOpen" and "mouthSmile_L" count too), as
+/// is each corrective (correctives.hpp) of two shapes that the rig has. So weights move the
+/// landmarks as they move the rig. `landmarks`: metres, on the rig at rest. Throws InputError,
+/// naming `file`, if no shape has one of ARKit's names or if there are no landmarks.
 FaceModel rig_model(const io::ShapedMesh& rig, const io::Landmarks& landmarks,
                     const std::filesystem::path& file, const RigLips& lips = {});
 

@@ -8,6 +8,7 @@
 #include "hyperex/core/quantile.hpp"
 #include "hyperex/motion/against_set.hpp"
 #include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/measured_rows.hpp"
 
 namespace hyperex::motion {
 namespace {
@@ -25,11 +26,12 @@ constexpr double kMostJitterOfFew_m = 0.1e-3;
 
 /// A coordinate in sample `k`. Where this reading alone is off the two on each side, it is the
 /// median of the five. It is off if it is farther than `most_m` from that median and from the cubic
-/// through the four, which a head that turns quickly follows.
+/// through the four, which a head that turns quickly follows. Beside a gap it stays.
 double without_lone_reading(const Motion& motion, std::size_t k, int row, Eigen::Index axis,
                             double most_m) {
   const auto at = [&](std::size_t j) { return motion.positions[j](row, axis); };
   if (k < 2 || k + 2 >= motion.positions.size()) return at(k);
+  if (!std::isfinite(at(k - 2) + at(k - 1) + at(k + 1) + at(k + 2))) return at(k);
   const double middle = median({at(k - 2), at(k - 1), at(k), at(k + 1), at(k + 2)});
   const double between = (4 * (at(k - 1) + at(k + 1)) - at(k - 2) - at(k + 2)) / 6;
   const bool off = std::abs(at(k) - middle) > most_m && std::abs(at(k) - between) > most_m;
@@ -116,10 +118,11 @@ Indices largest_by_distances(const Eigen::MatrixXd& shares) {
 TrackedPoints tracked_points(const Motion& motion, const std::vector<int>& rows) {
   TrackedPoints out;
   out.jitter_m = jitter_of_each(motion, rows);
-  const std::size_t count = motion.positions.size(),
+  const std::vector<std::size_t> samples = samples_with_all(motion, rows);
+  const std::size_t count = samples.size(),
                     step = std::max<std::size_t>(1, count / kMostRigidSamples);
-  for (std::size_t k = 0; k < count; k += step)
-    out.positions.push_back(points_of_sample(motion, k, rows, out.jitter_m));
+  for (std::size_t i = 0; i < count; i += step)
+    out.positions.push_back(points_of_sample(motion, samples[i], rows, out.jitter_m));
   const double sample_s = double(step) * (motion.time_s.back() - motion.time_s.front()) /
                           double(std::max<std::size_t>(1, count - 1));
   const std::size_t wanted = std::max(kFewestInMean, std::size_t(kShortestMean_s / sample_s));

@@ -13,8 +13,8 @@ struct TrackedPoints {
   std::size_t shortest = 1;       ///< samples of the shortest mean, 0.2 s where there are enough
 };
 
-/// The points `rows` of a motion of two samples or more, measured in every sample. Of a long
-/// recording 400 to 800 evenly spaced samples are taken. A single reading off the two beside it on
+/// The points `rows` of a motion, in the samples that have all of them, two or more. Of a long
+/// recording 400 to 800 evenly spaced ones are taken. A single reading off the two beside it on
 /// each side is replaced by the median of the five, where a head that turns quickly does not
 /// explain it. The jitter of a point is its own (jitter_of_motion()), at least the median of all
 /// points. Of fewer than 20 samples it is that of jitter_of_differences(), at most 0.1 mm: there

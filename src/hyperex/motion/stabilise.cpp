@@ -58,13 +58,12 @@ constexpr const char* kNeeded =
     "bridge of the nose, a band around the forehead, temples, upper teeth)";
 
 /// The end of the message after the option's name: the points that it could name, those found to
-/// keep their distances, else the motion's other points. Names that are not landmarks of a face (of
+/// keep still, else the motion's other points. Names that are not landmarks of a face (of
 /// markers on a helmet, for example) come first, since the usual landmarks are tried already.
 /// Points that move with the mouth are never proposed.
 std::string other_names(const Motion& motion, const std::vector<int>& known) {
   if (const auto still = find_still_points(motion); !still.empty())
-    return " names others; these keep their distances from each other, as points of the skull "
-           "do: " +
+    return " names others; these keep still against each other, as points of the skull do: " +
            listed(still);
   std::vector<std::string> names;
   bool of_mouth = false;

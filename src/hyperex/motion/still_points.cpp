@@ -13,7 +13,9 @@
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/face/words_to_point.hpp"
 #include "hyperex/geometry/transform.hpp"
+#include "hyperex/motion/fill_gaps.hpp"
 #include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/measured_rows.hpp"
 #include "hyperex/motion/rigid_set.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
 
@@ -34,14 +36,19 @@ constexpr double kFaceMoves_m = 3e-3;
 /// Of many points a few keep still by chance: measured, up to three of 39 on a smile.
 constexpr std::size_t kMoreThanChance = 6;
 
-std::vector<int> candidates(const Motion& motion) {
-  std::vector<int> out;
+/// Which points may be still, by their names.
+using MayBeStill = bool (*)(const std::string& name);
+
+bool is_not_of_the_mouth(const std::string& name) {
+  return !face::moves_with_mouth(name);
+}
+
+/// The points that may be still, with gaps of at most `most_gap_s`.
+std::vector<int> candidates(const Motion& motion, MayBeStill may_be_still, double most_gap_s) {
+  std::vector<int> rows;
   for (std::size_t p = 0; p < motion.names.size(); ++p)
-    if (!face::moves_with_mouth(motion.names[p]) &&
-        std::ranges::all_of(motion.positions,
-                            [&](const Points& at) { return at.row(Eigen::Index(p)).allFinite(); }))
-      out.push_back(int(p));
-  return out;
+    if (may_be_still(motion.names[p])) rows.push_back(int(p));
+  return hardly_interrupted(motion, rows, most_gap_s);
 }
 
 /// The one of `rows` whose point is called `name`, else the one at the same place; -1: none.
@@ -60,10 +67,11 @@ struct CommonPoints {
   std::vector<std::vector<int>> rows;  ///< of each motion, in the order of the names
 };
 
-CommonPoints common_points(const std::vector<const Motion*>& motions,
-                           std::vector<int> (*candidates_of)(const Motion&)) {
+CommonPoints common_points(const std::vector<const Motion*>& motions, MayBeStill may_be_still,
+                           double most_gap_s) {
   std::vector<std::vector<int>> of_each;
-  for (const Motion* motion : motions) of_each.push_back(candidates_of(*motion));
+  for (const Motion* motion : motions)
+    of_each.push_back(candidates(*motion, may_be_still, most_gap_s));
   CommonPoints common{{}, std::vector<std::vector<int>>(motions.size())};
   for (const int first : of_each.front()) {
     const std::string& name = motions.front()->names[std::size_t(first)];
@@ -146,8 +154,13 @@ Eigen::Index most_unsteady(const Eigen::MatrixXd& changes, const std::vector<Eig
   return worst;
 }
 
+/// The first sample in which all `rows` are measured; there must be one.
+const Points& first_whole(const Motion& motion, const std::vector<int>& rows) {
+  return motion.positions[samples_with_all(motion, rows).front()];
+}
+
 bool lie_near_a_line(const Motion& motion, const std::vector<int>& rows) {
-  const Points at = motion.positions.front()(rows, Eigen::all);
+  const Points at = first_whole(motion, rows)(rows, Eigen::all);
   return spread_off_line(at) < kLeastStillSpread;
 }
 
@@ -155,17 +168,16 @@ bool names_a_landmark(const std::string& name) {
   return face::is_known_landmark(face::full_name(name)) || !face::name_of_words(name).empty();
 }
 
-/// Candidates whose names are not those of landmarks, nor words for one.
-std::vector<int> beside_landmarks(const Motion& motion) {
-  std::vector<int> rows = candidates(motion);
-  std::erase_if(rows, [&](int row) { return names_a_landmark(motion.names[std::size_t(row)]); });
-  return rows;
+/// Names that are not those of landmarks, nor words for one.
+bool is_beside_landmarks(const std::string& name) {
+  return is_not_of_the_mouth(name) && !names_a_landmark(name);
 }
 
 /// Points of all motions that keep still against each other in each.
 struct CommonStill {
   StillPoints points;
   std::vector<std::vector<int>> rows;  ///< of the points, in each motion
+  std::size_t of = 0;                  ///< among so many common points
 };
 
 /// The largest such set of the common points, of any size. Landmarks that move are not named: they
@@ -176,7 +188,7 @@ CommonStill still_among(const std::vector<const Motion*>& motions, const CommonP
   for (std::size_t i = 0; i < motions.size(); ++i)
     tracked.push_back(tracked_points(*motions[i], common.rows[i]));
   const RigidSet set = largest_rigid_set(tracked, give_m);
-  CommonStill out{{}, std::vector<std::vector<int>>(motions.size())};
+  CommonStill out{{}, std::vector<std::vector<int>>(motions.size()), common.names.size()};
   for (const Eigen::Index p : set.points) {
     out.points.names.push_back(common.names[std::size_t(p)]);
     for (std::size_t i = 0; i < motions.size(); ++i)
@@ -188,7 +200,7 @@ CommonStill still_among(const std::vector<const Motion*>& motions, const CommonP
   return out;
 }
 
-/// How many of `count` points must keep their distances.
+/// How many of `count` points must keep still.
 std::size_t enough_of(std::size_t count) {
   return count == 3 ? 3 : std::clamp((count + 1) / 2, kLeastStillPoints, kMoreThanChance);
 }
@@ -210,26 +222,29 @@ bool face_moves(const Motion& motion) {
 /// Whether these points move with the skull by the landmarks of the face, too, which those of the
 /// lower teeth do not: at 95 % of the samples their displacement (root mean square) is within what
 /// an error of the landmarks' pose and the points' jitter in both samples make there (95 %), and
-/// kStillPoints_m.
+/// kStillPoints_m. Displacements count from the first sample with all points.
 bool stay_by_landmarks(const StabilisedMotion& steady, const std::vector<int>& rows) {
   const double jitter_m = jitter_of_motion(steady.motion, rows);
   const double of_jitter = std::isnan(jitter_m) ? 0 : 6 * jitter_m * jitter_m;
+  const std::vector<std::size_t> samples = samples_with_all(steady.motion, rows);
+  const Points& first = steady.motion.positions[samples.front()];
+  const Eigen::Matrix<double, 6, 6>& of_first = steady.poses[samples.front()].covariance;
   std::size_t off = 0;
-  for (std::size_t k = 0; k < steady.poses.size(); ++k) {
+  for (const std::size_t k : samples) {
     const UncertainPose& pose = steady.poses[k];
     double moved = 0, variance = 0;
     for (const int row : rows) {
       const Vec3 at = steady.motion.positions[k].row(row).transpose();
-      moved += (at.transpose() - steady.motion.positions.front().row(row)).squaredNorm();
+      moved += (at.transpose() - first.row(row)).squaredNorm();
       const auto arm = pose_derivative(at - pose.centre);
-      variance += (arm * pose.covariance * arm.transpose()).trace();
+      variance += (arm * (pose.covariance + of_first) * arm.transpose()).trace();
     }
     const auto count = double(rows.size());
     if (std::sqrt(moved / count) >
         kWithin95 * std::sqrt(variance / count + of_jitter) + kStillPoints_m)
       ++off;
   }
-  return 20 * off <= steady.poses.size();
+  return 20 * off <= samples.size();
 }
 
 bool all_have_samples(const std::vector<const Motion*>& motions) {
@@ -247,25 +262,49 @@ bool any_near_a_line(const std::vector<const Motion*>& motions, const CommonStil
   return false;
 }
 
+/// What makes some still points the ones that are sought.
+using AreSought = bool (*)(const std::vector<const Motion*>& motions, const CommonStill& still);
+
+bool give_poses_in_gaps(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  for (std::size_t i = 0; i < motions.size(); ++i)
+    if (!give_pose_in_gaps(*motions[i], still.rows[i], kLeastStillSpread)) return false;
+  return true;
+}
+
+/// Those of all points that may be still; none where they are not sought. Short gaps, which a run
+/// fills, cost no point as long as the others give the pose there. Where points with gaps make the
+/// difference, those without are judged alone.
+CommonStill sought_among(const std::vector<const Motion*>& motions, MayBeStill may_be_still,
+                         double give_m, AreSought are_sought) {
+  if (!all_have_samples(motions)) return {};
+  const CommonPoints hardly = common_points(motions, may_be_still, GapOptions().max_gap_s),
+                     whole = common_points(motions, may_be_still, 0);
+  CommonStill still = still_among(motions, hardly, give_m);
+  if (are_sought(motions, still) && give_poses_in_gaps(motions, still)) return still;
+  if (whole.rows == hardly.rows) return {};
+  still = still_among(motions, whole, give_m);
+  return are_sought(motions, still) ? still : CommonStill();
+}
+
+bool are_enough_for_a_pose(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  return still.points.names.size() >= kLeastStillPoints && !any_near_a_line(motions, still);
+}
+
+bool are_many_and_far_apart(const std::vector<const Motion*>& motions, const CommonStill& still) {
+  return still.of >= 3 && still.points.names.size() >= enough_of(still.of) &&
+         !any_near_a_line(motions, still) &&
+         greatest_distance(first_whole(*motions.front(), still.rows.front()), still.rows.front()) >=
+             kLeastStillSize_m;
+}
+
 /// find_still_points() with the points that move.
 StillPoints still_without_landmarks(const std::vector<const Motion*>& motions) {
-  if (!all_have_samples(motions)) return {};
-  CommonStill still = still_among(motions, common_points(motions, candidates), kStillPoints_m);
-  if (still.points.names.size() < kLeastStillPoints || any_near_a_line(motions, still)) return {};
-  return std::move(still.points);
+  return sought_among(motions, is_not_of_the_mouth, kStillPoints_m, are_enough_for_a_pose).points;
 }
 
 /// Candidates beside the landmarks that are still, many and far apart; else none.
 CommonStill still_beside_landmarks(const std::vector<const Motion*>& motions) {
-  if (!all_have_samples(motions)) return {};
-  const CommonPoints common = common_points(motions, beside_landmarks);
-  if (common.names.size() < 3) return {};
-  CommonStill still = still_among(motions, common, kBandGives_m);
-  if (still.points.names.size() < enough_of(common.names.size()) ||
-      any_near_a_line(motions, still) ||
-      greatest_distance(motions.front()->positions.front(), still.rows.front()) < kLeastStillSize_m)
-    return {};
-  return still;
+  return sought_among(motions, is_beside_landmarks, kBandGives_m, are_many_and_far_apart);
 }
 
 }  // namespace
@@ -339,13 +378,16 @@ StillPoints points_to_hold_the_head(const std::vector<const Motion*>& motions) {
   if (!all_have_pose_points(motions)) return still_without_landmarks(motions);
   CommonStill still = still_beside_landmarks(motions);
   if (still.points.names.empty()) return {};
+  StillPoints none;
   bool moves = false;
   for (std::size_t i = 0; i < motions.size(); ++i) {
-    const StabilisedMotion steady = try_stabilise(*motions[i], {}, "rigid_points").steady;
-    if (steady.poses.empty() || !stay_by_landmarks(steady, still.rows[i])) return {};
-    moves = moves || face_moves(steady.motion);
+    StabilisedMotion steady = try_stabilise(*motions[i], {}, "rigid_points").steady;
+    if (steady.poses.empty()) return none;
+    none.by_landmarks.push_back(std::move(steady));
+    if (!stay_by_landmarks(none.by_landmarks.back(), still.rows[i])) return none;
+    moves = moves || face_moves(none.by_landmarks.back().motion);
   }
-  if (!moves) return {};
+  if (!moves) return none;
   still.points.beside_landmarks = true;
   return std::move(still.points);
 }

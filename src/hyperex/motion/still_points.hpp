@@ -12,7 +12,10 @@ namespace hyperex::motion {
 /// do: the largest set whose points move by at most kStillPoints_m beyond their own jitter
 /// (largest_rigid_set()), in the motion's order. Points of the mouth and the chin
 /// (face::moves_with_mouth()) are left out, since the lower lip and the chin also move together.
-/// Empty where fewer than four points are found, or where they lie nearly on a line.
+/// Candidates may have gaps that a run fills by default (GapOptions::max_gap_s), as far as half of
+/// the samples have them all (hardly_interrupted()), and the points found must give a pose in every
+/// sample. Where that finds none, candidates without gaps are judged alone. Empty where fewer than
+/// four points are found, or where they lie nearly on a line.
 std::vector<std::string> find_still_points(const Motion& motion);
 /// The same of several recordings of one face, not null: points that all of them have and that keep
 /// still in each. How far they are apart may differ between the recordings. They may have
@@ -30,7 +33,7 @@ inline constexpr double kStillPoints_m = 1e-3;
 /// the head pose.
 bool has_pose_points(const Motion& motion);
 
-/// A point that does not keep its distances from others, and the greatest change of one of them.
+/// A point that does not keep still against others, and how far it moves.
 struct UnsteadyPoint {
   std::string name;
   double change_m = 0;
@@ -53,8 +56,9 @@ std::vector<std::string> proposed_rigid_points(const Motion& motion);
 std::vector<std::string> proposed_rigid_points(const std::vector<const Motion*>& motions);
 
 /// Points of the skull that a pose by the landmarks of the face leaves unused: markers of a band,
-/// of the ears, of the upper teeth. `steady`: of stabilise() without given points. Candidates are
-/// measured in every sample, and their names are not those of landmarks. All of this holds:
+/// of the ears, of the upper teeth. `steady`: of stabilise() without given points. Candidates have
+/// short gaps alone, as for find_still_points(), and names that are not those of landmarks. All of
+/// this holds:
 ///  * They move against each other by at most 0.2 mm beyond what their jitter explains
 ///    (largest_rigid_set()). Skin over bone moves more: on a speaker's forehead 0.6 to 1.2 mm.
 ///  * They are at least half of the candidates, or six; and four, or three of three.
@@ -73,6 +77,9 @@ struct StillPoints {
   std::vector<UnsteadyPoint> left_out;  ///< with their movement against the others
   /// Landmarks of the face would give a pose in every recording, too.
   bool beside_landmarks = false;
+  /// Where `names` is empty: stabilise() by the landmarks, of the first recordings in their order,
+  /// as far as the search has come. It need not be computed again.
+  std::vector<StabilisedMotion> by_landmarks = {};
 };
 
 /// The points that hold the head's pose where the user names none: those of

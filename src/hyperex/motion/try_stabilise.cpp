@@ -44,8 +44,8 @@ std::string still_points_sentence(const StillPoints& still_points) {
 
 std::string unused_still_points_sentence(const std::vector<std::string>& still_points) {
   return fmt::format(
-      "the head's pose is that of the face's landmarks, while {} keep their distances from each "
-      "other, as points of the skull do, and are not used",
+      "the head's pose is that of the face's landmarks, while {} keep still against each other, as "
+      "points of the skull do, and are not used",
       fmt::join(still_points, ", "));
 }
 

@@ -28,8 +28,8 @@ TriedPose try_stabilise(const Motion& motion, const std::vector<std::string>& st
 /// name.
 std::string still_points_sentence(const StillPoints& still_points);
 
-/// "the head's pose is that of the face's landmarks, while a, b, c keep their distances from each
-/// other, as points of the skull do, and are not used": of still_points_beside_landmarks().
+/// "the head's pose is that of the face's landmarks, while a, b, c keep still against each other,
+/// as points of the skull do, and are not used": of still_points_beside_landmarks().
 std::string unused_still_points_sentence(const std::vector<std::string>& still_points);
 
 }  // namespace hyperex::motion

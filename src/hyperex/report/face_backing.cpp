@@ -218,7 +218,7 @@ double light_between_lips(const std::vector<int>& loop, const Points& points) {
   return 1 - (1 - least) * std::exp(-2 * area.norm() / (length_m * falls_m));
 }
 
-TriMesh pocket(const Opening& opening, const Points& points, const Eigen::Isometry3d& jaw) {
+TriMesh pocket(const Opening& opening, const Points& points, const Eigen::Affine3d& jaw) {
   const auto n = Index(opening.loop.size()), rings = Index(opening.rings.size());  // with the edge
   const Points moved = points(opening.loop, Eigen::all) - opening.rest.topRows(n);
   const Eigen::RowVector3d centre = moved.colwise().mean();

@@ -83,7 +83,7 @@ double light_between_lips(const std::vector<int>& loop, const Points& points);
 /// The pocket of an opening for the skin's vertices at `points` and for the jaw's motion since
 /// rest: the edge, the rings behind it and a point. An affine function of both.
 TriMesh pocket(const Opening& opening, const Points& points,
-               const Eigen::Isometry3d& jaw = Eigen::Isometry3d::Identity());
+               const Eigen::Affine3d& jaw = Eigen::Affine3d::Identity());
 
 /// sRGB of a nostril's edge and of each ring behind it; the point has the colour of the last ring.
 inline constexpr std::array<Srgb, 3> kPocketColours = {

@@ -81,10 +81,10 @@ void check_glb(const simulate::Performance& performance, const GlbOptions& optio
 }
 
 /// The jaw in some frames.
-std::vector<Eigen::Isometry3d> jaws_of(const simulate::Performance& performance,
-                                       const std::vector<int>& frames) {
-  std::vector<Eigen::Isometry3d> jaws;
-  for (const int f : frames) jaws.push_back(performance.jaw_now_from_rest[std::size_t(f)]);
+std::vector<Eigen::Affine3d> jaws_of(const simulate::Performance& performance,
+                                     const std::vector<int>& frames) {
+  std::vector<Eigen::Affine3d> jaws;
+  for (const int f : frames) jaws.emplace_back(performance.jaw_now_from_rest[std::size_t(f)]);
   return jaws;
 }
 
@@ -104,9 +104,9 @@ void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh&
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
   if (!backing.openings.empty())
-    add_pocket_targets(mesh.primitives[1], arrays, backing.openings, rest, cavity, targets,
-                       options.teeth ? jaws_of(performance, targets.keys.frames)
-                                     : std::vector<Eigen::Isometry3d>{});
+    add_pocket_targets(
+        mesh.primitives[1], arrays, backing.openings, rest, cavity, targets,
+        options.teeth ? jaws_of(performance, targets.keys.frames) : std::vector<Eigen::Affine3d>{});
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();

@@ -188,7 +188,7 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
 }
 
 TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
-                const Eigen::Isometry3d& jaw) {
+                const Eigen::Affine3d& jaw) {
   TriMesh all;
   for (const Opening& opening : openings) {
     const TriMesh one = pocket(opening, points, jaw);
@@ -227,10 +227,10 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
 void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
                         const std::vector<Opening>& openings, const Points& skin_rest,
                         const Points& at_rest, const PoseTargets& targets,
-                        const std::vector<Eigen::Isometry3d>& jaws) {
+                        const std::vector<Eigen::Affine3d>& jaws) {
   for (std::size_t k = 0; k < targets.positions.size(); ++k) {
     const Points skin = skin_rest + targets.positions[k].cast<double>();
-    const Eigen::Isometry3d jaw = jaws.empty() ? Eigen::Isometry3d::Identity() : jaws.at(k);
+    const Eigen::Affine3d jaw = jaws.empty() ? Eigen::Affine3d::Identity() : jaws.at(k);
     const Points now = pockets(openings, skin, jaw).points;
     pocket_part.targets.push_back({{"POSITION", arrays.few_vectors((now - at_rest).cast<float>(),
                                                                    targets.least_move_m, true)}});

@@ -30,7 +30,7 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
 
 /// The pockets of all openings for a skin at `points` and a jaw, one after the other.
 TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
-                const Eigen::Isometry3d& jaw = Eigen::Isometry3d::Identity());
+                const Eigen::Affine3d& jaw = Eigen::Affine3d::Identity());
 
 /// The pockets behind the openings, as a primitive of the skin's mesh, because they move with its
 /// poses. Unlit, as on the page: the light is part of their colours.
@@ -42,7 +42,7 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
 void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
                         const std::vector<Opening>& openings, const Points& skin_rest,
                         const Points& at_rest, const PoseTargets& targets,
-                        const std::vector<Eigen::Isometry3d>& jaws);
+                        const std::vector<Eigen::Affine3d>& jaws);
 
 /// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes
 /// (light_on_eyes()), and that shade turns with them.

@@ -11,7 +11,6 @@
 #include "hyperex/report/page_data.hpp"
 #include "hyperex/report/page_template.hpp"
 #include "hyperex/simulate/load/known_activation.hpp"
-#include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::report {
 namespace {
@@ -194,12 +193,11 @@ json muscle_section(const ReportInput& input) {
         {{"name", muscle.name}, {"latin", muscle.latin}, {"points", points_json(muscle.line)}});
     if (muscle.sheet.rows() > 0) lines.back()["sheet"] = points_json(muscle.sheet);
   }
-  return {
-      {"time_s", muscles.time_s},
-      {"few_points", input.performance.driven_names.size() <= std::size_t(simulate::kFewPoints)},
-      {"groups", muscle_groups(muscles)},
-      {"lines", lines},
-      {"active", active_muscles(input, muscles)}};
+  return {{"time_s", muscles.time_s},
+          {"few_points", muscles.few_points},
+          {"groups", muscle_groups(muscles)},
+          {"lines", lines},
+          {"active", active_muscles(input, muscles)}};
 }
 
 json report_manifest(const ReportInput& input, BinaryBlock& block, bool face) {

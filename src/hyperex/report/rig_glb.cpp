@@ -3,6 +3,7 @@
 
 #include <tiny_gltf.h>
 
+#include <algorithm>
 #include <functional>
 #include <stdexcept>
 #include <utility>
@@ -63,7 +64,7 @@ void add_jaw_targets(tinygltf::Model& model, GltfArrays& arrays, int node, const
   std::vector<std::string> names;
   std::vector<Move> moves;
   for (const RigShape& shape : shapes) {
-    if (shape.jaw_now_from_rest.isApprox(Eigen::Isometry3d::Identity(), 1e-9)) continue;
+    if (shape.jaw_now_from_rest.isApprox(Eigen::Affine3d::Identity(), 1e-9)) continue;
     names.push_back(shape.name);
     moves.emplace_back([axis_m, jaw = shape.jaw_now_from_rest](const Points& rest) {
       Points out(rest.rows(), 3);
@@ -86,6 +87,23 @@ void list_landmarks(tinygltf::Mesh& skin, const io::Landmarks& landmarks) {
   skin.extras = tinygltf::Value(extras);
 }
 
+void check_shapes(const std::vector<RigShape>& shapes, Index vertices) {
+  for (std::size_t k = 0; k < shapes.size(); ++k) {
+    if (shapes[k].displacement_m.rows() != vertices)
+      throw std::invalid_argument("write_rig_glb: a shape of another skin");
+    if (const auto& pair = shapes[k].corrects; pair && std::max((*pair)[0], (*pair)[1]) >= k)
+      throw std::invalid_argument("write_rig_glb: a corrective before its shapes");
+  }
+}
+
+/// The displacement where a shape is shown: a corrective together with those that it corrects.
+PointsF skin_shown(const RigShape& shape, const std::vector<RigShape>& shapes) {
+  PointsF moved = shape.displacement_m;
+  if (shape.corrects)
+    for (const std::size_t one : *shape.corrects) moved += shapes[one].displacement_m;
+  return moved;
+}
+
 PoseTargets targets_of(const TriMesh& rest, const std::vector<RigShape>& shapes) {
   const PointsF at_rest = rest.points.cast<float>();
   const PointsF rest_normals = vertex_normals(at_rest, rest.triangles);
@@ -95,8 +113,11 @@ PoseTargets targets_of(const TriMesh& rest, const std::vector<RigShape>& shapes)
   for (const RigShape& shape : shapes) {
     targets.names.push_back(shape.name);
     targets.positions.push_back(pose_of(shape.displacement_m, kLeastMove_m));
-    targets.normals.push_back(vertex_normals(at_rest + shape.displacement_m, rest.triangles) -
-                              rest_normals);
+    PointsF normals =
+        vertex_normals(at_rest + skin_shown(shape, shapes), rest.triangles) - rest_normals;
+    if (shape.corrects)
+      for (const std::size_t one : *shape.corrects) normals -= targets.normals[one];
+    targets.normals.push_back(std::move(normals));
   }
   return targets;
 }
@@ -107,9 +128,7 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
                      const io::Scan& scan, const anatomy::Teeth* teeth, const Vec3& jaw_axis_m,
                      const std::vector<RigShape>& shapes) {
   const TriMesh& rest = performance.skin_rest;
-  for (const RigShape& shape : shapes)
-    if (shape.displacement_m.rows() != rest.points.rows())
-      throw std::invalid_argument("write_rig_glb: a shape of another skin");
+  check_shapes(shapes, rest.points.rows());
   tinygltf::Model model;
   begin_face(model);
   GltfArrays arrays(model);
@@ -124,7 +143,7 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   const PoseTargets targets = targets_of(rest, shapes);
   add_morph_targets(skin, arrays, targets, view.skin_vertex);
   list_landmarks(skin, landmarks_at_rest(performance));
-  std::vector<Eigen::Isometry3d> jaws;
+  std::vector<Eigen::Affine3d> jaws;
   if (teeth)
     for (const RigShape& shape : shapes) jaws.push_back(shape.jaw_now_from_rest);
   if (!backing.openings.empty())

@@ -2,7 +2,9 @@
 #include "hyperex/rig/face_rig.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <map>
 #include <utility>
 
@@ -11,6 +13,7 @@
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/gaze.hpp"
 #include "hyperex/report/face_backing.hpp"
+#include "hyperex/rig/correctives.hpp"
 #include "hyperex/rig/lid_doubts.hpp"
 #include "hyperex/rig/shape_motion.hpp"
 #include "hyperex/session/face_session.hpp"
@@ -38,9 +41,9 @@ bool moves_skin(const std::string& shape) {
          shape != "tongueOut";
 }
 
-/// The poses that are simulated, by name: every shape that moves skin alone, and those of
-/// mouthClose.
-std::vector<Pose> poses_of(std::map<std::string, std::size_t>& place) {
+/// The poses that are simulated, by name: every shape that moves skin alone, those of mouthClose,
+/// and pairs at the end, so that the former ones stay where they are.
+std::vector<Pose> poses_of(Correctives correctives, std::map<std::string, std::size_t>& place) {
   std::vector<Pose> poses;
   const auto add = [&](const std::string& name, Pose pose) {
     place[name] = poses.size();
@@ -50,6 +53,9 @@ std::vector<Pose> poses_of(std::map<std::string, std::size_t>& place) {
     if (moves_skin(shape) && shape != "mouthClose") add(shape, {.weights = {{shape, 1.0}}});
   add("open", {.weights = {{"jawOpen", kClosedAt}}});
   add("closed", {.weights = {{"jawOpen", kClosedAt}, {"mouthClose", kClosedAt}}});
+  if (correctives == Correctives::of_clashing_pairs)
+    for (const expression::ShapePair& pair : clashing_pairs())
+      add(expression::corrective_name(pair), {.weights = {{pair.first, 1.0}, {pair.second, 1.0}}});
   return poses;
 }
 
@@ -75,14 +81,36 @@ class Shapes {
       shape.displacement_m = (skin("closed") - skin("open")) / float(kClosedAt);
     } else if (moves_skin(name)) {
       shape.displacement_m = skin(name);
-      const Eigen::Isometry3d& jaw = performance_.jaw_now_from_rest.at(frame_.at(name));
-      if (name.starts_with("jaw") || Eigen::AngleAxisd(jaw.linear()).angle() > kJaw_rad)
-        shape.jaw_now_from_rest = jaw;
+      shape.jaw_now_from_rest = jaw(name);
     }
     return shape;
   }
 
+  /// What the face that shows a pair adds to the sum of its two. `shapes`: the 52.
+  RigShape corrective(const expression::ShapePair& pair,
+                      const std::vector<RigShape>& shapes) const {
+    const auto place = [&](const std::string& name) {
+      return std::size_t(std::ranges::find(shapes, name, &RigShape::name) - shapes.begin());
+    };
+    RigShape shape{.name = expression::corrective_name(pair)};
+    shape.corrects = std::array{place(pair.first), place(pair.second)};
+    shape.displacement_m = skin(shape.name);
+    Eigen::Matrix4d added_by_jaw = jaw(shape.name).matrix() - Eigen::Matrix4d::Identity();
+    for (const std::size_t one : *shape.corrects) {
+      shape.displacement_m -= shapes.at(one).displacement_m;
+      added_by_jaw -= shapes[one].jaw_now_from_rest.matrix() - Eigen::Matrix4d::Identity();
+    }
+    shape.jaw_now_from_rest.matrix() += added_by_jaw;
+    return shape;
+  }
+
  private:
+  Eigen::Affine3d jaw(const std::string& pose) const {
+    const Eigen::Isometry3d& now = performance_.jaw_now_from_rest.at(frame_.at(pose));
+    const bool turns =
+        pose.starts_with("jaw") || Eigen::AngleAxisd(now.linear()).angle() > kJaw_rad;
+    return turns ? Eigen::Affine3d(now) : Eigen::Affine3d::Identity();
+  }
   /// From the face at rest, which added volume may have changed.
   PointsF skin(const std::string& pose) const {
     const PointsF& moved = performance_.skin_displacement_m.at(frame_.at(pose));
@@ -128,10 +156,10 @@ void refuse_other_keys(const session::Changes& changes) {
 }  // namespace
 
 FaceRig make_rig(session::Face face, const session::Changes& changes,
-                 const std::function<void(const Note&)>& note) {
+                 const std::function<void(const Note&)>& note, Correctives correctives) {
   refuse_other_keys(changes);
   std::map<std::string, std::size_t> place;
-  std::vector<Pose> poses = poses_of(place);
+  std::vector<Pose> poses = poses_of(correctives, place);
   motion::Motion motion = motion_through(poses);
   session::Changes all = {{"drive.points", "all"},
                           {"contact.lips", true},
@@ -163,6 +191,11 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
       simulate::JawHinge(session.inputs().landmarks, session.mesh().bones.get()).centre;
   for (const std::string& name : expression::arkit_shapes())
     rig.shapes.push_back(simulated.named(name));
+  if (correctives == Correctives::of_clashing_pairs)
+    for (const expression::ShapePair& pair : clashing_pairs())
+      rig.shapes.push_back(simulated.corrective(pair, rig.shapes));
+  rig.lips =
+      std::make_shared<const simulate::LipSurfaces>(session.mesh(), session.inputs().landmarks);
   rig.performance = session.simulation().performance;
   close_eyes(rig, session.inputs().landmarks);
   for (const Note& one :

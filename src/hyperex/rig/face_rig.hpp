@@ -11,9 +11,13 @@
 #include "hyperex/report/rig_glb.hpp"
 #include "hyperex/session/changes.hpp"
 #include "hyperex/session/face.hpp"
+#include "hyperex/simulate/contact/lip_surfaces.hpp"
 #include "hyperex/simulate/performance.hpp"
 
 namespace hyperex::rig {
+
+/// Whether a rig has shapes for combinations of two (correctives.hpp).
+enum class Correctives { none, of_clashing_pairs };
 
 /// A face with ARKit's 52 blend shapes (expression::arkit_shapes()).
 struct FaceRig {
@@ -21,7 +25,10 @@ struct FaceRig {
   std::shared_ptr<const anatomy::Teeth> teeth;  ///< null: none
   simulate::Performance performance;            ///< the run that the shapes come from
   Vec3 jaw_axis_m;                              ///< the middle between the condyles
-  std::vector<report::RigShape> shapes;         ///< in the order of expression::arkit_shapes()
+  /// In the order of expression::arkit_shapes(), then the correctives in that of clashing_pairs().
+  std::vector<report::RigShape> shapes;
+  /// The lips of the face at rest: how deep they lie in each other under a displacement.
+  std::shared_ptr<const simulate::LipSurfaces> lips;
   /// "Right", "Left": the sides on which the eye is closed in the scan. Shapes of lids and gaze
   /// move nothing there.
   std::vector<std::string> closed_eyes;
@@ -36,10 +43,14 @@ struct FaceRig {
 ///                 mouth
 ///   eyeLook...    the eyes turn; with a gaze up or down the lids follow as the canonical face's do
 ///   tongueOut     nothing: the tongue stays in the mouth
+/// Correctives, where asked for: the landmarks move by the sum of both shapes, muscles, jaw and
+/// contact answer to that, and the displacements by the two shapes are subtracted. They are
+/// simulated after the shapes, in the same run, which lasts longer by one pose each.
 /// `changes`: keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
 /// (docs/scene.md). `note`: called with each note and warning on the scan and its shapes, not
 /// with those on the recording that is made for them. Throws InputError, NumericalError.
 FaceRig make_rig(session::Face face, const session::Changes& changes = {},
-                 const std::function<void(const Note&)>& note = {});
+                 const std::function<void(const Note&)>& note = {},
+                 Correctives correctives = Correctives::none);
 
 }  // namespace hyperex::rig

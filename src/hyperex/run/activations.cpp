@@ -10,7 +10,6 @@
 
 #include "hyperex/io/csv.hpp"
 #include "hyperex/simulate/load/known_activation.hpp"
-#include "hyperex/simulate/load/muscle_load.hpp"
 
 namespace hyperex::run {
 
@@ -82,8 +81,7 @@ void write_activations_csv(const std::filesystem::path& file,
                 });
 }
 
-nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
-                                        std::size_t driven_points) {
+nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles) {
   nlohmann::ordered_json json;
   if (muscles.groups.empty()) return json;
   const Eigen::Index at = most_active_sample(muscles);
@@ -93,7 +91,7 @@ nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
     add_group(muscles, Eigen::Index(g), at, json["groups"]);
   add_muscles(muscles, at, json);
   json["reading"] =
-      driven_points <= std::size_t(simulate::kFewPoints)
+      muscles.few_points
           ? "so few points leave most of an activation to the prior: a means of moving the face, "
             "not a measurement of muscles"
           : "sums over muscles that points on the skin can hardly distinguish; sigma includes the "

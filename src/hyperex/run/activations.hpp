@@ -21,10 +21,9 @@ void write_activations_csv(const std::filesystem::path& file,
 /// deviation of each group on each side, the share of its variance that the recording determines,
 /// and `note` where the activation is mostly the prior's choice. Then the number of muscles, the
 /// names of those that differ from 0 and of those that are mostly the prior's choice, and a
-/// sentence on how to read them. Empty where gains or mirroring leave no groups. `driven_points`:
-/// their number.
-nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles,
-                                        std::size_t driven_points);
+/// sentence on how to read them: it is another where few points drive (MuscleCourse::few_points).
+/// Empty where gains or mirroring leave no groups.
+nlohmann::ordered_json activations_json(const simulate::MuscleCourse& muscles);
 
 /// One line from a run's summary: how many activations differ from 0, and how many are mostly the
 /// prior's choice. Empty where the summary does not have them.

@@ -32,16 +32,27 @@ bool is_name_of_an_output(const std::string& name) {
          path.parent_path().parent_path() == "variants";
 }
 
-}  // namespace
-
-std::set<std::string> files_of_earlier_run(const fs::path& folder) {
+/// The summary of the run that wrote into `folder`; null where none did. The summaries of a run
+/// name no command; those of other commands do.
+json summary_of_run(const fs::path& folder) {
   std::error_code error;
   const fs::path file = folder / "summary.json";
   if (!fs::is_regular_file(fs::symlink_status(file, error))) return {};
-  const json summary = json::parse(read_file(file), nullptr, false);
-  if (!summary.is_object() || summary.value("program", json()) != "hyperex") return {};
-  // The summaries of a run name no command; those of other commands do, and are not a run's.
-  if (summary.contains("command")) return {};
+  json summary = json::parse(read_file(file), nullptr, false);
+  const bool of_a_run = summary.is_object() && summary.value("program", json()) == "hyperex" &&
+                        !summary.contains("command");
+  return of_a_run ? summary : json();
+}
+
+}  // namespace
+
+bool is_folder_of_run(const fs::path& folder) {
+  return !summary_of_run(folder).is_null();
+}
+
+std::set<std::string> files_of_earlier_run(const fs::path& folder) {
+  const json summary = summary_of_run(folder);
+  if (summary.is_null()) return {};
   std::set<std::string> names;
   if (const auto listed = summary.find("files"); listed != summary.end()) {
     for (const json& name : *listed)

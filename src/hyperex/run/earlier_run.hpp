@@ -9,6 +9,9 @@
 
 namespace hyperex::run {
 
+/// Whether the summary.json in `folder` is that of a run, and not of another command.
+bool is_folder_of_run(const std::filesystem::path& folder);
+
 /// The files that a run wrote into `folder`, relative to it, with '/' as separator. They are
 /// "files" in its summary.json, if that contains "program": "hyperex". Earlier versions wrote no
 /// such list; for their folders, the existing files with names of outputs are returned. Empty if no

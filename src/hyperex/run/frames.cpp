@@ -22,12 +22,12 @@ bool is_finite(const Performance& p) {
   return p.model.strain == simulate::Strain::finite;
 }
 
-/// Parameters of the tissue that differ from place to place.
+/// Parameters of the tissue that differ from place to place, also from layer to layer.
 std::vector<io::VtuArray> graded_arrays(const Results& r) {
   std::vector<io::VtuArray> graded;
   const Eigen::Index tets = r.simulation.performance.tets.rows();
   for (int q = 0; r.tissue && q < tissue::parameter_count; ++q)
-    if (r.tissue->varies(q))
+    if (r.tissue->varies_within(q))
       graded.push_back({tissue::parameter_info(q).title,
                         (Eigen::Map<const Eigen::VectorXd>(r.tissue->element[q].data(), tets) /
                          tissue::parameter_info(q).si)

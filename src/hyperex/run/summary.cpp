@@ -152,7 +152,7 @@ Json summary_of(const session::FaceSession& session, const Results& r) {
   s["symmetry"] = metrics::summary_of(r.symmetry);
   if (r.uncertainty)
     s["uncertainty"] = metrics::json_of(*r.uncertainty, p.skin_rest, r.inputs.landmarks);
-  if (!p.muscles.names.empty()) s["muscles"] = activations_json(p.muscles, p.driven_names.size());
+  if (!p.muscles.names.empty()) s["muscles"] = activations_json(p.muscles);
   if (r.tissue) s["tissue"] = tissue_json(*r.tissue);
   return s;
 }

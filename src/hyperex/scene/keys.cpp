@@ -78,8 +78,9 @@ bool decides_the_drive(const std::string& key, const nlohmann::json& value) {
 }
 
 nlohmann::json default_of(const Key& key) {
-  if (!key.scene_default.empty()) return key.scene_default;
-  return key.get(Scene{});
+  if (key.scene_default.empty()) return key.get(Scene{});
+  if (key.kind == Kind::flag) return key.scene_default == "true";
+  return key.scene_default;
 }
 
 const Key* find_key(const std::string& name) {

@@ -177,6 +177,20 @@ void SceneReader::settle_drive() {
   if (variants_.is_array() && drive_is_open()) scene.drive.by = simulate::DriveBy::muscles;
 }
 
+void SceneReader::settle_contact() {
+  const json finite = word_of(simulate::Strain::finite);
+  const auto given = given_.find("tissue.strain");
+  bool any_finite = given != given_.end() && given->second.value == finite;
+  if (variants_.is_array())
+    for (const json& block : variants_) {
+      if (!block.is_object()) continue;
+      const auto changes = changes_of(block);
+      const auto strain = changes.find("tissue.strain");
+      any_finite = any_finite || (strain != changes.end() && strain->second == finite);
+    }
+  scene.contact.lips = !any_finite;
+}
+
 void SceneReader::fill() {
   for (const Key& key : keys()) {
     const auto found = given_.find(key.name);
@@ -230,6 +244,7 @@ SceneReader read(const fs::path& file, const std::vector<Override>& overrides,
     for (const Override& given : overrides) reader.take_override(given);
     reader.settle_motion();
     reader.settle_drive();
+    reader.settle_contact();
     reader.fill();
     reader.settle_muscles();
     reader.check_together();
@@ -266,6 +281,12 @@ Scene read_scene_text(const std::string& text, const fs::path& file,
 
 Scene read_scene(const fs::path& file, const std::vector<std::string>& overrides) {
   return read_scene_with(file, from_command_line(overrides));
+}
+
+void leave_out_variants(Scene& scene) {
+  scene.variants.clear();
+  if (!scene.origins.contains("contact.lips"))
+    scene.contact.lips = scene.model.strain != simulate::Strain::finite;
 }
 
 std::vector<InputProblem> problems_of(const fs::path& file,

@@ -416,6 +416,10 @@ Scene read_scene(const std::filesystem::path& file, const std::vector<std::strin
 Scene read_scene_text(const std::string& text, const std::filesystem::path& file,
                       std::vector<LeftOutVariant>* left_out = nullptr);
 
+/// Takes its variants out of a scene that was read. Where contact.lips was not given, it is what a
+/// scene without variants has.
+void leave_out_variants(Scene& scene);
+
 /// The same problems, returned instead of thrown; empty for a valid scene.
 std::vector<InputProblem> problems_of(const std::filesystem::path& file,
                                       const std::vector<std::string>& overrides = {});

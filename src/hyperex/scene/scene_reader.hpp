@@ -35,6 +35,8 @@ class SceneReader {
   /// (decides_the_drive()).
   bool drive_is_open() const;
   void settle_drive();
+  /// Sets contact.lips as a scene has it that does not give the key.
+  void settle_contact();
   void fill();
   /// Sets the table of muscles, which is the same for all variants.
   void settle_muscles() { scene.muscles.own = muscles_of_scene(); }

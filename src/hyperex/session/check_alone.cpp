@@ -86,7 +86,7 @@ std::optional<Note> size_warning_of(const motion::Motion& sample) {
 
 }  // namespace
 
-std::vector<Note> check_alone(const motion::Motion& m) {
+std::vector<Note> check_alone(const motion::Motion& m, Readings readings) {
   std::vector<Note> warnings;
   const motion::Motion sample = fullest_sample(m);
   check_sides(sample, average_face());
@@ -94,7 +94,7 @@ std::vector<Note> check_alone(const motion::Motion& m) {
   add(warnings, sides_warning(sample, average_face()));
   add(warnings, exchanged_warning(sample, average_face()));
   add(warnings, size_warning_of(sample));
-  add(warnings, timing_warning(m));
+  add(warnings, timing_warning(m, readings));
   return warnings;
 }
 

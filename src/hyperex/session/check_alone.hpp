@@ -6,6 +6,7 @@
 
 #include "hyperex/core/note.hpp"
 #include "hyperex/motion/motion.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 
 namespace hyperex::session {
 
@@ -15,7 +16,7 @@ namespace hyperex::session {
 /// sides_warning, exchanged_warning, size_warning and timing_warning, in this order. `m` may
 /// contain the head's motion and gaps: the first of its samples with the most measured points is
 /// judged.
-std::vector<Note> check_alone(const motion::Motion& m);
+std::vector<Note> check_alone(const motion::Motion& m, Readings readings = Readings::measured);
 
 /// `recording.size_implausible`: the points with known names lie less than 0.5 or more than 1.8
 /// times as far apart as on an average face, as root mean square distance from their mean; in the

@@ -22,6 +22,10 @@ struct FaceOptions {
 /// together; the sentence names the key, that of a variant after "variant[0].".
 FaceOptions face_options(const scene::Scene& scene, const Inputs& inputs, TissueFields& fields);
 
+/// On the tissue of base and of the variants.
+std::vector<Note> notes_on_tissue(const std::optional<tissue::TissueField>& base,
+                                  const std::vector<VariantRun>& runs);
+
 /// simulation_options() with the tissue of a field, where there is one.
 simulate::SimulationOptions options_with_field(const scene::Scene& scene, const Inputs& inputs,
                                                const std::optional<tissue::TissueField>& field);

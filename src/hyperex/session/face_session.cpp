@@ -40,6 +40,7 @@ FaceSession::Impl::Impl(SceneSource given, SessionOptions options)
   Stopwatch watch;
   take_at_first(first);
   seconds.tissue = watch.lap();
+  note_tissue();
   begin_stage("assembling and factoring");
   Progress progress("assembling and factoring", 0);
   run_together({[&] { prepare_with_kept_order(scene, inputs, *simulator); },
@@ -214,6 +215,7 @@ bool FaceSession::set_scene(scene::Scene next) {
   impl_->take(std::move(next));
   impl_->source = std::move(source);
   impl_->set_obstacles();
+  impl_->note_tissue();
   return true;
 }
 

@@ -62,11 +62,12 @@ struct FaceSession::Impl {
   std::vector<VariantState> states;
 
   // Notes by the stage that found them.
-  std::vector<Note> teeth_notes, skin_notes, doubts, base_notes, variant_notes;
+  std::vector<Note> tissue_notes, teeth_notes, skin_notes, doubts, base_notes, variant_notes;
   StageSeconds seconds;
 
   void begin_stage(const std::string& name) const;
   void report(const std::vector<Note>& notes) const;
+  void report_new(const std::vector<Note>& now, const std::vector<Note>& before) const;
   std::vector<Note> notes_on_inputs(Severity severity) const;
   bool with_runs() const { return session_options.certainty == Certainty::with_runs; }
 
@@ -93,6 +94,7 @@ struct FaceSession::Impl {
   void prepare_variant();
   const metrics::PeakTissue& peak() const;
   const metrics::SkinUncertainty* skin_uncertainty() const;
+  void note_tissue();
   void note_base();
   bool up_to_date() const;
   std::vector<Note> notes() const;

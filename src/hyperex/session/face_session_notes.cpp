@@ -4,6 +4,7 @@
 #include <iterator>
 #include <utility>
 
+#include "hyperex/session/face_options.hpp"
 #include "hyperex/session/face_session_impl.hpp"
 #include "hyperex/session/run_notes.hpp"
 
@@ -26,24 +27,36 @@ void FaceSession::Impl::finish_search() {
   report(doubts);
 }
 
-/// After base was run, and again once its twin is known: notes that were reported before are not
-/// reported again.
+/// Notes that were reported before are not reported again.
+void FaceSession::Impl::report_new(const std::vector<Note>& now,
+                                   const std::vector<Note>& before) const {
+  std::vector<Note> added;
+  std::copy_if(now.begin(), now.end(), std::back_inserter(added), [&](const Note& note) {
+    return std::find(before.begin(), before.end(), note) == before.end();
+  });
+  report(added);
+}
+
+/// Reports the notes on the tissue that the scene before it did not have.
+void FaceSession::Impl::note_tissue() {
+  const std::vector<Note> before = std::exchange(tissue_notes, notes_on_tissue(field, runs));
+  report_new(tissue_notes, before);
+}
+
+/// After base was run, and again once its twin is known.
 void FaceSession::Impl::note_base() {
+  simulate::ContactOptions asked_for = scene.contact;
+  asked_for.lips = asked_for.lips && scene.origins.contains("contact.lips");
   const std::vector<Note> before = std::exchange(
       base_notes, notes_on_contact_and_elements(simulation.report, simulation.performance,
-                                                scene.contact, session_options.frame_words));
+                                                asked_for, session_options.frame_words));
   append(base_notes, gaze_notes(simulation.performance, backing ? &*backing : nullptr));
   append(base_notes, run_warnings(simulation.report, simulation.performance, scene.contact,
                                   session_options.frame_words));
   append(base_notes, symmetry_notes(symmetry, twin ? twin->why_not : ""));
   append(base_notes, volume_warnings(peak()));
   append(base_notes, strain_notes(peak()));
-  std::vector<Note> added;
-  std::copy_if(base_notes.begin(), base_notes.end(), std::back_inserter(added),
-               [&](const Note& note) {
-                 return std::find(before.begin(), before.end(), note) == before.end();
-               });
-  report(added);
+  report_new(base_notes, before);
 }
 
 std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
@@ -58,6 +71,7 @@ std::vector<Note> FaceSession::Impl::notes_on_inputs(Severity severity) const {
 std::vector<Note> FaceSession::Impl::notes() const {
   std::vector<Note> all = notes_on_inputs(Severity::note);
   append(all, face.mesh->notes);
+  append(all, notes_on_tissue(field, runs));
   append(all, teeth_notes);
   append(all, notes_on_inputs(Severity::warning));
   append(all, skin_notes);

@@ -231,6 +231,7 @@ void FaceSession::Impl::take_source(SceneSource next) {
   take(next.scene());
   set_obstacles();
   source = std::move(next);
+  note_tissue();
 }
 
 // ----- the class

@@ -9,6 +9,7 @@
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/session/simulation_options.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
+#include "hyperex/tissue/field/layers.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -88,7 +89,12 @@ void take_mirrored(const tissue::TissueField& field, const tissue::TissueMesh& m
     }
     return out;
   };
-  for (int p = 0; p < tissue::parameter_count; ++p) values.element[p] = of_elements(field.skin[p]);
+  for (int p = 0; p < tissue::parameter_count; ++p) {
+    std::vector<std::vector<double>> layers = {of_elements(field.skin[p])};
+    for (const tissue::SkinField& under : field.deeper) layers.push_back(of_elements(under[p]));
+    values.element[p] = field.deeper.empty() ? std::move(layers.front())
+                                             : tissue::layer_means(field.layer_share, layers);
+  }
   values.volume_ratio.clear();
   if (field.skin_volume_ratio.size() > 0)
     values.volume_ratio = of_elements(field.skin_volume_ratio);

@@ -34,6 +34,7 @@ std::optional<simulate::AlignedMotion> mirrored_motion(const simulate::AlignedMo
                                                        std::string& why_not);
 
 /// Every tetrahedron takes the field at the point of the skin nearest to its reflected centroid.
+/// Layers lie as deep on either side: it keeps its own share of each.
 void take_mirrored(const tissue::TissueField& field, const tissue::TissueMesh& mesh,
                    const metrics::MidsagittalPlane& plane, simulate::TissueValues& values);
 

@@ -14,6 +14,7 @@
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/scene/keys.hpp"
+#include "hyperex/session/keyframes.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -63,6 +64,11 @@ std::optional<io::LengthUnit> unit_that_fits(double scale, const std::string& un
     if (word.value != *read && std::abs(scale / ratio - 1) <= within) return word.value;
   }
   return std::nullopt;
+}
+
+/// What a device cannot record, keyframes of weights state.
+bool have_keyframes(const std::vector<double>& time_s, Readings readings) {
+  return readings == Readings::of_weights && are_keyframes(time_s);
 }
 
 double misfit_m(const Points& recorded, const Points& scanned) {
@@ -260,11 +266,12 @@ std::string timing_sentence(const motion::Motion& m) {
                      1e3 * median_step(m.time_s));
 }
 
-std::optional<Note> timing_warning(const motion::Motion& m) {
+std::optional<Note> timing_warning(const motion::Motion& m, Readings readings) {
   constexpr double longest_s = 600;
   if (m.time_s.size() < 2) return std::nullopt;
   const double lasts_s = m.time_s.back() - m.time_s.front(), step_s = median_step(m.time_s);
-  if (step_s <= kLongestStep_s && lasts_s <= longest_s) return std::nullopt;
+  const bool steps_are_sound = step_s <= kLongestStep_s || have_keyframes(m.time_s, readings);
+  if (steps_are_sound && lasts_s <= longest_s) return std::nullopt;
   return make_warning(
       "recording.time_unit_doubtful",
       fmt::format(
@@ -273,8 +280,8 @@ std::optional<Note> timing_warning(const motion::Motion& m) {
           m.time_s.back(), step_s, longest_s, kLongestStep_s));
 }
 
-std::optional<Note> coarse_warning(const motion::Motion& m) {
-  if (m.time_s.size() < 3) return std::nullopt;
+std::optional<Note> coarse_warning(const motion::Motion& m, Readings readings) {
+  if (m.time_s.size() < 3 || have_keyframes(m.time_s, readings)) return std::nullopt;
   const double step_s = median_step(m.time_s);
   constexpr double smooth_s = motion::Motion::kSmoothUpTo_s;
   if (step_s <= smooth_s || step_s > kLongestStep_s) return std::nullopt;
@@ -286,9 +293,10 @@ std::optional<Note> coarse_warning(const motion::Motion& m) {
                   step_s, smooth_s));
 }
 
-std::optional<Note> short_warning(const std::vector<double>& time_s) {
+std::optional<Note> short_warning(const std::vector<double>& time_s, Readings readings) {
   constexpr std::size_t least = 5;
   if (time_s.size() < 2 || time_s.size() >= least) return std::nullopt;
+  if (have_keyframes(time_s, readings)) return std::nullopt;
   return make_warning(
       "recording.short",
       fmt::format("the recording has {} samples in {:.3g} s: what the face does between them is "

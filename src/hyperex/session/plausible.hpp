@@ -6,6 +6,7 @@
 
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/misplaced_points.hpp"
+#include "hyperex/session/reading_warnings.hpp"
 
 namespace hyperex::session {
 
@@ -67,14 +68,17 @@ std::vector<Note> extent_warnings(const motion::Motion& stabilised);
 std::string timing_sentence(const motion::Motion& m);
 
 /// `recording.time_unit_doubtful`: times look like another unit, with a median step above 0.5 s or
-/// more than ten minutes in all.
-std::optional<Note> timing_warning(const motion::Motion& m);
+/// more than ten minutes in all. Steps of keyframes (are_keyframes()) of weights may be longer.
+std::optional<Note> timing_warning(const motion::Motion& m, Readings readings = Readings::measured);
 
-/// `recording.coarse`: the median step is above 0.1 s, up to the bound of the former.
-std::optional<Note> coarse_warning(const motion::Motion& m);
+/// `recording.coarse`: the median step is above 0.1 s, up to the bound of the former. Never of
+/// keyframes of weights.
+std::optional<Note> coarse_warning(const motion::Motion& m, Readings readings = Readings::measured);
 
-/// `recording.short`: two to four samples at the times `time_s`. A recording of one is no motion.
-std::optional<Note> short_warning(const std::vector<double>& time_s);
+/// `recording.short`: two to four samples at the times `time_s`, no keyframes of weights. A
+/// recording of one is no motion.
+std::optional<Note> short_warning(const std::vector<double>& time_s,
+                                  Readings readings = Readings::measured);
 
 /// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
 /// `eyes_turn`: the recording has the gaze.

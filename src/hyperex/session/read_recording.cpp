@@ -27,6 +27,7 @@
 #include "hyperex/session/check_alone.hpp"
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/cleaned_recording.hpp"
+#include "hyperex/session/keyframes.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 #include "hyperex/session/recording_names.hpp"
@@ -177,9 +178,9 @@ std::optional<Note> rigid_points_warning(const scene::Scene& scene, const motion
   add_rest(named, moving.size());
   return make_warning(
       "head.points_not_rigid",
-      fmt::format("points of motion.rigid_points do not keep their distances from each other, as "
-                  "points fixed to the skull do: {}; name points in their place that do not move "
-                  "with the expression, or none",
+      fmt::format("points of motion.rigid_points do not keep still against each other, as points "
+                  "of the skull do: {}; name points in their place that do not move with the "
+                  "expression, or none",
                   fmt::join(named, ", ")));
 }
 
@@ -225,7 +226,7 @@ std::optional<Note> unused_points_note(const scene::Scene& scene,
                                                    "; name them in motion.rigid_points");
 }
 
-/// A warning of motion.file, under the key that names the recording.
+/// A note on the recording's file, under the key that names it.
 std::optional<Note> about_its_file(const scene::Scene& scene, std::optional<Note> doubt) {
   for (const auto& [key, file] : {std::pair{"motion.arkit", &scene.motion.arkit},
                                   {"motion.openface", &scene.motion.openface},
@@ -270,14 +271,15 @@ motion::Motion read_motion(const scene::Scene& scene, Extent extent, Inputs& in)
 motion::StabilisedMotion steady_motion(const scene::Scene& scene, const motion::Motion& m,
                                        Extent extent, Inputs& in) {
   const bool whole = is_read_whole(scene, extent);
-  if (!scene.motion.source.embedded && whole) {
-    in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
-    for (const std::optional<Note>& doubt :
-         {timing_warning(m), coarse_warning(m), short_warning(m.time_s)})
-      add(in.notes, about_its_file(scene, doubt));
-  }
   const Readings readings =
       of_weights(scene) && !scene.given.motion ? Readings::of_weights : Readings::measured;
+  if (!scene.motion.source.embedded && whole) {
+    in.notes.push_back(make_note("recording.timing", timing_sentence(m)));
+    for (const std::optional<Note>& said :
+         {timing_warning(m, readings), coarse_warning(m, readings),
+          short_warning(m.time_s, readings), keyframes_note(m, readings)})
+      add(in.notes, about_its_file(scene, said));
+  }
   const CleanedRecording cleaned = cleaned_recording(m, readings);
   append(in.notes, cleaned.warnings);
   motion::GapOptions gaps;

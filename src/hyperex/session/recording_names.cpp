@@ -12,6 +12,24 @@
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
+namespace {
+
+/// The motion without the samples in which no point is measured, which a run fills.
+motion::Motion without_lost_samples(const motion::Motion& motion) {
+  motion::Motion out = motion;
+  out.time_s.clear();
+  out.positions.clear();
+  out.lines.clear();
+  for (std::size_t k = 0; k < motion.positions.size(); ++k) {
+    if (motion.positions[k].array().isNaN().all()) continue;
+    out.time_s.push_back(motion.time_s[k]);
+    out.positions.push_back(motion.positions[k]);
+    if (k < motion.lines.size()) out.lines.push_back(motion.lines[k]);
+  }
+  return out;
+}
+
+}  // namespace
 
 void check_head_points(const motion::Motion& motion, const std::vector<std::string>& rigid_points) {
   try {
@@ -52,7 +70,8 @@ std::vector<std::string> doubts_of_names(const motion::Motion& motion,
 
 motion::StillPoints points_to_hold_the_head(const motion::Motion& recorded) {
   try {
-    return motion::points_to_hold_the_head(cleaned_recording(recorded).motion);
+    return motion::points_to_hold_the_head(
+        without_lost_samples(cleaned_recording(recorded).motion));
   } catch (const InputError&) {  // a check reports it
     return motion::points_to_hold_the_head(recorded);
   }

@@ -24,7 +24,8 @@ std::vector<std::string> doubts_of_names(const motion::Motion& motion,
                                          const std::vector<std::string>& rigid_points);
 
 /// The points that a new scene of this recording names in motion.rigid_points
-/// (motion::points_to_hold_the_head), its wild readings left out.
+/// (motion::points_to_hold_the_head), its wild readings and its samples without any reading left
+/// out.
 motion::StillPoints points_to_hold_the_head(const motion::Motion& recorded);
 
 }  // namespace hyperex::session

@@ -21,7 +21,8 @@ namespace hyperex::session {
 using FrameWords = std::function<std::string(int frame)>;
 
 /// Notes, no warnings: few inverted tetrahedra (`tissue.few_inverted`: at most 0.1 %), contact that
-/// never acts (`contact.none`). `words`: empty: the frame's time.
+/// never acts (`contact.none`). `contact`: what the user asks for. `words`: empty: the frame's
+/// time.
 std::vector<Note> notes_on_contact_and_elements(const simulate::SimulationReport& report,
                                                 const simulate::Performance& performance,
                                                 const simulate::ContactOptions& contact,

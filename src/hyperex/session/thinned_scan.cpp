@@ -99,8 +99,12 @@ io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const 
 }
 
 void keep_thinned(tissue::TissueField& field, const tissue::FullSkin& full) {
-  for (Eigen::VectorXd& values : field.skin)
-    if (values.size() > 0) values = Eigen::VectorXd(values(full.kept));
+  const auto keep = [&](tissue::SkinField& of_skin) {
+    for (Eigen::VectorXd& values : of_skin)
+      if (values.size() > 0) values = Eigen::VectorXd(values(full.kept));
+  };
+  keep(field.skin);
+  for (tissue::SkinField& under : field.deeper) keep(under);
   if (field.skin_volume_ratio.size() > 0)
     field.skin_volume_ratio = Eigen::VectorXd(field.skin_volume_ratio(full.kept));
 }

@@ -60,7 +60,9 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   simulate::Simulator simulator(face.mesh, inputs.landmarks, inputs.motion, options.base);
   if (scene.motion.recording.empty()) check_faces_before_run(simulator, options.runs);
   checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
-  return face.mesh->notes;
+  std::vector<Note> notes = face.mesh->notes;
+  append(notes, notes_on_tissue(options.field, options.runs));
+  return notes;
 }
 
 }  // namespace hyperex::session

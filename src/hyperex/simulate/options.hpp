@@ -484,7 +484,10 @@ struct ContactOptions {
     v.option(HX_MEMBER(lips),
              "The lips may touch but not pass through each other, without friction. Each frame is "
              "corrected separately, in static equilibrium. Recorded points then end where they are "
-             "recorded only as far as no lip is in their way.");
+             "recorded only as far as no lip is in their way. The default is true at linear "
+             "strain. It is false where tissue.strain is \"finite\" in the scene or a variant, as "
+             "contact there takes minutes.",
+             {.scene_default = "true"});
     v.option(HX_MEMBER(teeth),
              "The inner side of lips and cheeks may touch the teeth of both jaws but not pass "
              "through them, in the same way. The lower teeth move with the jaw.");

@@ -26,6 +26,8 @@ struct MuscleCourse {
   /// elevators_L". None where gains or mirroring change the activations.
   std::vector<std::string> groups;
   Eigen::MatrixXd group_activation, group_sigma, group_prior_sigma;  ///< |groups| x samples
+  /// Whether the fit took its points for few (few_points()), so that the prior decides most.
+  bool few_points = true;
 };
 
 /// A face in motion: what a simulation gives to every output. Scan frame, metres.

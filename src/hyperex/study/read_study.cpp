@@ -10,6 +10,7 @@
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/scene/variant_names.hpp"
 #include "hyperex/study/axes.hpp"
+#include "hyperex/study/contact_of_cases.hpp"
 
 namespace hyperex::study {
 namespace fs = std::filesystem;
@@ -193,6 +194,7 @@ Study read_study(const fs::path& file) {
                      [](const auto& a, const auto& b) { return a.line < b.line; });
     throw InputError(text.problems);
   }
+  settle_contact(study);
   return study;
 }
 

@@ -30,6 +30,7 @@ constexpr std::size_t kMostCases = 10000;
 
 /// Reads a study file and makes its cases: all combinations of the rows of its CSV and the steps of
 /// its axes; the last axis varies fastest. Values are not checked here but in read_scene_with().
+/// Cases of linear strain beside one of finite strain get contact.lips=false (settle_contact()).
 /// Relative paths are relative to the folder of the study file. Throws one InputError with all
 /// problems, one line each, which names file, key, value and what was expected.
 Study read_study(const std::filesystem::path& file);

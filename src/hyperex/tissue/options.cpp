@@ -42,4 +42,9 @@ bool is_allowed(int parameter, double value) {
          value >= info.least - slack * std::abs(info.least);
 }
 
+std::string factor_key(int parameter) {
+  const std::string& key = parameter_info(parameter).key;
+  return key.substr(0, key.find('_')) + "_factor";
+}
+
 }  // namespace hyperex::tissue

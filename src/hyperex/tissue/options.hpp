@@ -12,6 +12,8 @@ namespace hyperex::tissue {
 
 /// How thick the soft tissue may be, m.
 inline constexpr Bounds thickness_m_in{0.001, 0.04};
+/// How thick one of its layers may be, m.
+inline constexpr Bounds layer_thickness_m_in{0, 0.04, true};
 
 /// The parameters of a material, as places in arrays. SI: Pa, Pa s, 1, kg/m^3.
 enum Parameter { young, viscosity, poisson, density };
@@ -38,6 +40,8 @@ struct ParameterInfo {
 OptionDetails parameter_details(int parameter);
 const ParameterInfo& parameter_info(int parameter);
 bool is_allowed(int parameter, double value);
+/// The key of a factor of a parameter: "young_factor".
+std::string factor_key(int parameter);
 
 enum class Interpolation {
   harmonic,  ///< on the skin (harmonic.hpp)
@@ -66,6 +70,36 @@ struct TissuePoint {
     v.option(HX_MEMBER(value[viscosity]), "Viscosity there.", parameter_details(viscosity));
     v.option(HX_MEMBER(value[poisson]), "Poisson's ratio there.", parameter_details(poisson));
     v.option(HX_MEMBER(value[density]), "Density there.", parameter_details(density));
+  }
+};
+
+/// The tissue between two depths under the skin.
+struct TissueLayer {
+  std::string name = {};                   ///< "skin", for messages
+  std::optional<double> thickness_m = {};  ///< not given, of the last one alone: what is left
+  GivenParameters value{}, factor{};       ///< factor: of the uniform value
+  bool operator==(const TissueLayer&) const = default;
+
+  static constexpr const char* about = "A layer of the tissue.";
+  template <class Visitor>
+  static void describe(Visitor& v) {
+    constexpr Bounds factor_in{0, 1000, true};
+    v.option(HX_MEMBER(name), "What the layer is called, as skin or fat.", {.least = 1});
+    v.option(HX_MEMBER(thickness_m),
+             "How thick the layer is. Only the last, deepest one may have none: it takes the rest.",
+             {.unit = kMillimetres, .bounds = layer_thickness_m_in});
+    v.option(HX_MEMBER(value[young]), "Young's modulus of the layer.", parameter_details(young));
+    v.option(HX_MEMBER(value[viscosity]), "Its viscosity.", parameter_details(viscosity));
+    v.option(HX_MEMBER(value[poisson]), "Its Poisson's ratio.", parameter_details(poisson));
+    v.option(HX_MEMBER(value[density]), "Its density.", parameter_details(density));
+    v.option(HX_MEMBER(factor[young]), "Instead: multiplies tissue.young_kpa in the layer.",
+             {.bounds = factor_in, .name = "young_factor"});
+    v.option(HX_MEMBER(factor[viscosity]), "Instead: multiplies tissue.viscosity_pa_s.",
+             {.bounds = {0, 1000}, .name = "viscosity_factor"});
+    v.option(HX_MEMBER(factor[poisson]), "Instead: multiplies tissue.poisson.",
+             {.bounds = {-1000, 1000}, .name = "poisson_factor"});
+    v.option(HX_MEMBER(factor[density]), "Instead: multiplies tissue.density_kg_m3.",
+             {.bounds = factor_in, .name = "density_factor"});
   }
 };
 
@@ -127,6 +161,7 @@ struct TissueFieldOptions {
   std::string preset;         ///< of tissue_presets(); empty: none
   Interpolation interpolation = Interpolation::harmonic;
   bool mirror = false;                ///< values for one side hold for the other too
+  std::vector<TissueLayer> layers;    ///< from the skin inwards; instead of those of the preset
   std::vector<TissuePoint> points;    ///< replace those of the preset at the same landmark
   std::filesystem::path per_vertex;   ///< CSV or PLY, one row per vertex of the scan; empty: none
   std::vector<TissueRegion> regions;  ///< applied in turn
@@ -160,6 +195,12 @@ struct TissueFieldOptions {
              "viscosity_pa_s, poisson or density_kg_m3 and one row per vertex, or a PLY file with "
              "such vertex properties. An empty cell (in PLY: nan) keeps the value that the other "
              "keys give.");
+    v.option(
+        HX_MEMBER(layers),
+        "A layer of the tissue, from the skin inwards, with values of its own in place of the "
+        "uniform ones; points and regions change them afterwards. Under layers that all have a "
+        "thickness the tissue is uniform. One or more here replace all layers of the preset.",
+        {.key = "layer"});
     v.option(HX_MEMBER(points),
              "Parameters at a landmark, interpolated over the face instead of the uniform ones. At "
              "least one of them must be given.",

@@ -247,7 +247,7 @@ Comparison compare_visits(const VisitsFile& file,
     for (const session::CleanedRecording& recording : recordings[i]) {
       const MeasuredFace* first = done == 0 ? nullptr : &faces.front().front();
       faces.back().push_back(
-          measure_recording(recording, file.visits[i], file, first, still_points));
+          measure_recording(recording, file.visits[i], file, first, still_points, done));
       ++done;
       if (progress) progress(done);
     }

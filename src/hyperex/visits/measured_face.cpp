@@ -9,6 +9,7 @@
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/optional_landmarks.hpp"
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/metrics/excursion.hpp"
@@ -41,11 +42,14 @@ std::string with_file_name(std::string text, const std::string& path) {
 
 /// The motion without head pose, and the pose's errors where it was taken out.
 motion::StabilisedMotion without_head(const motion::Motion& motion, const VisitsFile& visits,
-                                      const motion::StillPoints& still_points, MeasuredFace& face) {
+                                      const motion::StillPoints& still_points,
+                                      std::size_t recording, MeasuredFace& face) {
   motion::TriedPose tried;
   if (!visits.rigid_points.empty())
     tried.steady =
         motion::stabilise(motion, {.rigid_points = motion::own_names(motion, visits.rigid_points)});
+  else if (recording < still_points.by_landmarks.size())
+    tried.steady = still_points.by_landmarks[recording];
   else
     tried = motion::try_stabilise(motion, motion::own_names(motion, still_points.names),
                                   "rigid_points of the visits");
@@ -65,19 +69,6 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
   if (const auto far = session::check_steady(tried.steady.motion))
     face.remarks.push_back(with_file_name(far->text, motion.source));
   return tried.steady;
-}
-
-/// The points of the head by which it is compared between visits. A band sits elsewhere on another
-/// day, landmarks do not: they lay one skull on the other where there are enough.
-std::vector<std::string> head_points(const VisitsFile& visits,
-                                     const motion::StillPoints& still_points) {
-  const std::vector<std::string>& points =
-      visits.rigid_points.empty() ? still_points.names : visits.rigid_points;
-  if (points.empty() || (visits.rigid_points.empty() && still_points.beside_landmarks))
-    return motion::default_rigid_points();
-  std::vector<std::string> names;
-  for (const std::string& name : points) names.push_back(face::full_name(name));
-  return names;
 }
 
 void settle_jitter(const motion::Motion& steady, std::optional<double> stated_m,
@@ -154,13 +145,38 @@ Points places_of(const std::map<std::string, Vec3>& rest, const std::vector<std:
   return out;
 }
 
+/// Whether one skull can be laid on another by these points of it.
+bool give_axes(const Points& at) {
+  return at.rows() >= 3 && spread_off_line(at) >= 0.05;
+}
+
+/// The points of the head by which it is compared between visits. A band sits elsewhere on another
+/// day, landmarks do not: they lay one skull on the other where there are enough. Stated points
+/// that are all landmarks do it themselves.
+std::vector<std::string> head_points(const VisitsFile& visits,
+                                     const motion::StillPoints& still_points,
+                                     const MeasuredFace& first, const MeasuredFace& face) {
+  const bool stated = !visits.rigid_points.empty();
+  const std::vector<std::string>& points = stated ? visits.rigid_points : still_points.names;
+  const std::vector<std::string>& landmarks = motion::default_rigid_points();
+  if (points.empty() || (!stated && still_points.beside_landmarks)) return landmarks;
+  std::vector<std::string> names;
+  for (const std::string& name : points) names.push_back(face::full_name(name));
+  const bool all_are_landmarks = std::ranges::all_of(
+      names, [](const std::string& name) { return face::is_known_landmark(name); });
+  if (stated && !all_are_landmarks &&
+      give_axes(places_of(first.rest, common_head_points(first, face, landmarks))))
+    return landmarks;
+  return names;
+}
+
 /// The axes of the first recording, carried by the skull to this one.
 void carry_axes(const MeasuredFace& first, const std::vector<std::string>& of_head,
                 const fs::path& recording, MeasuredFace& face) {
   const std::vector<std::string> common = common_head_points(first, face, of_head);
   const Points there = places_of(first.rest, common), here = places_of(face.rest, common);
   face.state.axes.setConstant(kNan);
-  if (common.size() < 3 || spread_off_line(there) < 0.05) {
+  if (!give_axes(there)) {
     face.remarks.push_back(
         fmt::format("{}: fewer than three still points in common with the first visit, so that "
                     "directions cannot be compared",
@@ -185,9 +201,11 @@ void carry_axes(const MeasuredFace& first, const std::vector<std::string>& of_he
   face.axes_covariance = variance * normal.inverse();
 }
 
-void settle_axes(const MeasuredFace* first, const std::vector<std::string>& of_head,
-                 const fs::path& recording, MeasuredFace& face) {
-  if (first) return carry_axes(*first, of_head, recording, face);
+void settle_axes(const MeasuredFace* first, const VisitsFile& visits,
+                 const motion::StillPoints& still_points, const fs::path& recording,
+                 MeasuredFace& face) {
+  if (first)
+    return carry_axes(*first, head_points(visits, still_points, *first, face), recording, face);
   face.state.axes.setConstant(kNan);
   if (const auto frame = face::face_frame_of_corners(face.rest))
     face.state.axes = frame->face_from_scan();
@@ -299,11 +317,12 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
 
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
-                     const motion::StillPoints& still_points) {
+                     const motion::StillPoints& still_points, std::size_t recording) {
   MeasuredFace face;
   const fs::path name = motion::named(motion);
   face.file = name.filename().string();
-  const motion::StabilisedMotion steady = without_head(motion, visits, still_points, face);
+  const motion::StabilisedMotion steady =
+      without_head(motion, visits, still_points, recording, face);
   if (face.head_known)
     for (const Note& doubt : session::extent_warnings(steady.motion))
       face.extent_doubts.push_back(doubt.text);
@@ -327,7 +346,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   if (!steady.poses.empty()) settle_pose(steady.poses[peak], rest_noise, peak_noise, face);
   settle_curves(columns, smooth, face);
   face.eye_distance_m = eye_distance(face.rest);
-  settle_axes(first, head_points(visits, still_points), name, face);
+  settle_axes(first, visits, still_points, name, face);
   settle_first_way(first, face);
   note_size(first, name, face);
   if (first) note_shape(*first, face);
@@ -344,9 +363,9 @@ session::CleanedRecording read_recording(const fs::path& recording, const VisitE
 
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
-                               const motion::StillPoints& still_points) {
+                               const motion::StillPoints& still_points, std::size_t number) {
   const motion::Motion& motion = recording.motion;
-  MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points);
+  MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points, number);
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())
     face.remarks.push_back(
         fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));

@@ -55,10 +55,11 @@ struct MeasuredFace {
 /// movement to measure.
 /// `first`: the first recording of the first visit, which defines the axes; null for itself.
 /// `still_points`: those that hold the head where the visits name none
-/// (motion::points_to_hold_the_head of all recordings); empty: all landmarks.
+/// (motion::points_to_hold_the_head of all recordings); empty: all landmarks. `recording`: the
+/// number of this one among them, from 0.
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
                      std::optional<double> stated_jitter_m, const MeasuredFace* first,
-                     const motion::StillPoints& still_points = {});
+                     const motion::StillPoints& still_points = {}, std::size_t recording = 0);
 
 /// Reads a recording of a visit (motion::read_motion), cleans it (session::cleaned_recording) and
 /// checks it by itself (session::check_alone). Throws InputError.
@@ -66,9 +67,9 @@ session::CleanedRecording read_recording(const std::filesystem::path& recording,
                                          const VisitEntry& visit, const VisitsFile& visits);
 
 /// measure() of a recording, with what was found in its readings among the remarks, and its
-/// extent_doubts with the visit that they concern.
+/// extent_doubts with the visit that they concern. `number`: as `recording` there.
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
-                               const motion::StillPoints& still_points);
+                               const motion::StillPoints& still_points, std::size_t number);
 
 }  // namespace hyperex::visits

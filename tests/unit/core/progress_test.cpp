@@ -3,12 +3,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <pty.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <thread>
 #include <vector>
+
+#include "support/on_terminal.hpp"
 
 namespace hyperex {
 namespace {
@@ -68,27 +68,9 @@ TEST(Progress, OneLongCallThatReportsNothingShowsOneLine) {
   EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 1) << text;
 }
 
-/// Runs `work` with a terminal as standard error and returns what it showed.
-template <class Work>
-std::string on_terminal(Work work) {
-  int ours = -1, theirs = -1;
-  EXPECT_EQ(::openpty(&ours, &theirs, nullptr, nullptr, nullptr), 0);
-  const int before = ::dup(2);
-  ::dup2(theirs, 2);
-  work();
-  ::dup2(before, 2);
-  ::close(before);
-  ::close(theirs);
-  std::string text;
-  char part[4096];
-  for (ssize_t n; (n = ::read(ours, part, sizeof part)) > 0;) text.append(part, std::size_t(n));
-  ::close(ours);
-  return text;
-}
-
 TEST(Progress, OnATerminalTheSecondsGoOnWhereTheWorkReportsNothing) {
   Progress::silence(false);
-  const std::string text = on_terminal([] {
+  const std::string text = test::on_terminal([] {
     const Progress progress("measuring", 0);
     std::this_thread::sleep_for(std::chrono::milliseconds(2600));
   });

@@ -3,8 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "hyperex/core/error.hpp"
 #include "hyperex/expression/blend_shapes.hpp"
+#include "hyperex/expression/correctives.hpp"
 #include "support/refusal.hpp"
 
 namespace hyperex::expression {
@@ -59,6 +65,77 @@ TEST(RigModel, KnowsTheNamesThatRigsUse) {
   EXPECT_EQ(refused(square("PupilDilate_L"), landmarks),
             "rig.glb: has no morph target with a name of ARKit's, such as jawOpen");
   EXPECT_EQ(refused(square("jawOpen"), {}), "rig.glb: has no landmarks");
+}
+
+/// The square with more shapes: each lifts all by so many centimetres.
+io::ShapedMesh lifting_square(const std::vector<std::pair<std::string, float>>& shapes) {
+  io::ShapedMesh rig = square("");
+  rig.shapes.clear();
+  for (const auto& [name, by_cm] : shapes) {
+    PointsF moved = PointsF::Zero(4, 3);
+    moved.col(1).setConstant(0.01F * by_cm);
+    rig.shapes.push_back({name, moved});
+  }
+  return rig;
+}
+
+/// How far up (cm) weights of jawOpen and mouthSmileLeft move the nasion.
+double lifted_cm(const io::ShapedMesh& rig, double jaw, double smile) {
+  const FaceModel model = rig_model(rig, {{"nasion", {0, 0, 0}}}, "rig.glb");
+  BlendShapes weights;
+  weights.names = {"jawOpen", "mouthSmileLeft"};
+  weights.time_s = {0, 1};
+  weights.weights.resize(2, 2);
+  weights.weights << 0, 0, jaw, smile;
+  std::vector<std::string> notes;
+  return 100 * motion_of(weights, model, notes).positions[1](0, 1);
+}
+
+TEST(RigModel, ACorrectiveHasTheProductOfTwoWeights) {
+  const io::ShapedMesh rig =
+      lifting_square({{"jawOpen", 1}, {"mouthSmileLeft", 2}, {"jawOpen_mouthSmileLeft", 4}});
+  EXPECT_NEAR(lifted_cm(rig, 1, 0), 1, 1e-6);
+  EXPECT_NEAR(lifted_cm(rig, 0, 1), 2, 1e-6);
+  EXPECT_NEAR(lifted_cm(rig, 1, 1), 1 + 2 + 4, 1e-6);
+  EXPECT_NEAR(lifted_cm(rig, 0.5, 0.3), 0.5 + 0.6 + 0.15 * 4, 1e-6);
+  EXPECT_NEAR(
+      lifted_cm(lifting_square({{"JawOpen", 1}, {"MouthSmile_L", 2}, {"JawOpen_MouthSmile_L", 4}}),
+                0.5, 0.3),
+      0.5 + 0.6 + 0.15 * 4, 1e-6)
+      << "as other rigs write them";
+}
+
+TEST(RigModel, ACorrectiveOfAShapeThatTheRigLacksIsPassedOver) {
+  const io::ShapedMesh rig = lifting_square({{"jawOpen", 1}, {"jawOpen_mouthSmileLeft", 4}});
+  EXPECT_NEAR(lifted_cm(rig, 1, 1), 1, 1e-6);
+  EXPECT_EQ(rig_model(rig, {{"nasion", {0, 0, 0}}}, "rig.glb").recorded_units.size(), 1u);
+}
+
+TEST(RigModel, ACorrectiveRestsWhereTheRecordingLacksAShape) {
+  const FaceModel model = rig_model(
+      lifting_square({{"jawOpen", 1}, {"mouthSmileLeft", 2}, {"jawOpen_mouthSmileLeft", 4}}),
+      {{"nasion", {0, 0, 0}}}, "rig.glb");
+  BlendShapes weights;
+  weights.names = {"jawOpen"};
+  weights.time_s = {0, 1};
+  weights.weights.resize(2, 1);
+  weights.weights << 0, 1;
+  std::vector<std::string> notes;
+  EXPECT_NEAR(100 * motion_of(weights, model, notes).positions[1](0, 1), 1, 1e-6);
+}
+
+TEST(RigModel, KnowsTheNamesOfCorrectives) {
+  const auto pair = [](const std::string& name) {
+    const std::optional<ShapePair> found = corrected_pair(name);
+    return found ? found->first + " " + found->second : "none";
+  };
+  EXPECT_EQ(corrective_name({"jawOpen", "mouthClose"}), "jawOpen_mouthClose");
+  EXPECT_EQ(pair("jawOpen_mouthClose"), "jawOpen mouthClose");
+  EXPECT_EQ(pair("MouthFunnel_MouthSmileRight"), "mouthFunnel mouthSmileRight");
+  EXPECT_EQ(pair("mouthSmile_L_jawOpen"), "mouthSmileLeft jawOpen");
+  for (const char* none : {"jawOpen", "mouthSmile_L", "jawOpen_", "_jawOpen", "jawOpen_jawOpen",
+                           "jawOpen_smile", "jawOpen_mouthClose_mouthFunnel", "browInnerUp_L", ""})
+    EXPECT_EQ(pair(none), "none") << none;
 }
 
 /// Two squares that touch along y = 0, as closed lips do; of the shape only the lower one moves.

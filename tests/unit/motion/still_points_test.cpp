@@ -126,6 +126,22 @@ TEST(StillPoints, OfFewSamplesAreNotThoseOfAQuickHead) {
   EXPECT_THAT(find_still_points(motion), ElementsAre("a", "b", "c", "d", "e", "f"));
 }
 
+/// Takes readings of a point away.
+void lose(Motion& motion, const std::string& name, std::size_t first, std::size_t count) {
+  for (std::size_t k = first; k < first + count; ++k)
+    motion.positions[k].row(motion.index_of(name)).setConstant(testing::nan);
+}
+
+TEST(StillPoints, AreNotLostByAShortGap) {
+  Motion torn = nodding();
+  lose(torn, "left", 7, 2);
+  EXPECT_THAT(find_still_points(torn), ElementsAre("top", "left", "right", "nose"));
+  Motion whole = nodding();
+  for (const auto& [first, second] : {std::pair{&torn, &whole}, {&whole, &torn}})
+    EXPECT_THAT(find_still_points(std::vector<const Motion*>{first, second}),
+                ElementsAre("top", "left", "right", "nose"));
+}
+
 TEST(StillPoints, ThreeAreTooFewToBeSure) {
   EXPECT_THAT(find_still_points(nodding(5e-3)), IsEmpty());
 }
@@ -169,6 +185,15 @@ TEST(UnsteadyPoints, AreAllWhereNoTwoAgree) {
     return p == 2 && axis == 1 ? 0.05 + 0.02 * t : 0.0;
   });
   EXPECT_THAT(unsteady(motion, {"a", "b", "c"}), ElementsAre("a", "b", "c"));
+}
+
+/// Both change one distance too much. The second has changed that from the first point, too.
+TEST(UnsteadyPoints, OfTwoThatPartIsTheOneThatAlsoLeavesAThird) {
+  const Motion motion = testing::sampled(21, 0.05, {"a", "b", "c"}, [](double t, int p, int axis) {
+    if (axis != 0) return 0.0;
+    return p == 1 ? 0.02 - 1.5e-3 * t : p == 2 ? 0.05 + 1e-3 * t : 0.0;
+  });
+  EXPECT_THAT(unsteady(motion, {"a", "b", "c"}), ElementsAre("b"));
 }
 
 TEST(UnsteadyPoints, AreNotThoseThatAreReadBadly) {
@@ -246,14 +271,68 @@ TEST(StillPointsBesideLandmarks, AreAllFoundInNoise) {
           << noise_m << ", " << seed;
 }
 
-TEST(StillPointsBesideLandmarks, AreAllFoundWhereTheHeadNodsQuickly) {
-  Motion motion = landmarks_with(kOnBand, 0.01, none);
+void nod_quickly(Motion& motion) {
   for (std::size_t k = 0; k < motion.positions.size(); ++k) {
     const double angle = 0.15 * std::sin(4 * std::numbers::pi * motion.time_s[k]);
     const Eigen::Matrix3d nod = Eigen::AngleAxisd(angle, Vec3::UnitX()).toRotationMatrix();
     motion.positions[k] = (motion.positions[k] * nod.transpose()).eval();
   }
+}
+
+TEST(StillPointsBesideLandmarks, AreAllFoundWhereTheHeadNodsQuickly) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  nod_quickly(motion);
   EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand));
+}
+
+/// A head that nods quickly leaves a gap on another way than it came.
+TEST(StillPointsBesideLandmarks, AreNotLostByAShortGap) {
+  for (const std::size_t first : {0u, 20u, 55u}) {
+    Motion motion = landmarks_with(kOnBand, 0.01, none);
+    nod_quickly(motion);
+    lose(motion, "head_3", first, 5);
+    lose(motion, "head_1", 30, 1);
+    EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand)) << first;
+    EXPECT_NO_THROW(stabilise(motion, {.rigid_points = kBand})) << first;
+  }
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  lose(motion, "head_3", 20, 6);
+  EXPECT_THAT(points_to_hold_the_head(motion).names,
+              ElementsAre("head_1", "head_2", "head_4", "head_5", "head_6"))
+      << "a run does not fill so long a gap";
+}
+
+TEST(StillPointsBesideLandmarks, HoldTheHeadInEverySample) {
+  Motion motion = landmarks_with(kOnBand, 0.01, none);
+  for (const char* name : {"head_1", "head_2", "head_3"}) lose(motion, name, 20, 1);
+  EXPECT_THAT(points_to_hold_the_head(motion).names, ElementsAreArray(kBand)) << "three are left";
+  lose(motion, "head_4", 20, 1);
+  EXPECT_THAT(points_to_hold_the_head(motion).names, IsEmpty()) << "the landmarks hold it";
+}
+
+/// Three of three are enough, three of four are not: a lost reading of the cheek costs no band.
+TEST(StillPointsBesideLandmarks, AreNotLostByAGapOfAPointThatMoves) {
+  const std::vector<Vec3> places = {kOnBand[0], kOnBand[1], kOnBand[4], {0.03, 0, 0.03}};
+  const Motion whole = landmarks_with(places, 0.01, [](std::size_t p, double share) {
+    return Vec3(0, p == 3 ? 5e-3 * share : 0, 0);
+  });
+  EXPECT_THAT(points_to_hold_the_head(whole).names, IsEmpty());
+  Motion torn = whole;
+  lose(torn, "head_4", 20, 1);
+  EXPECT_THAT(points_to_hold_the_head(torn).names, ElementsAre("head_1", "head_2", "head_3"));
+}
+
+TEST(StillPointsBesideLandmarks, HandOnThePoseByTheLandmarks) {
+  const Motion speechless = landmarks_with(kOnBand, 0, none);
+  const StillPoints found = points_to_hold_the_head(std::vector{&speechless, &speechless});
+  EXPECT_THAT(found.names, IsEmpty()) << "the face does not move";
+  ASSERT_EQ(found.by_landmarks.size(), 2u);
+  const StabilisedMotion again = stabilise(speechless);
+  for (const StabilisedMotion& steady : found.by_landmarks) {
+    EXPECT_EQ(testing::greatest_difference(steady.motion, again.motion), 0);
+    EXPECT_EQ(steady.shift_uncertainty_m, again.shift_uncertainty_m);
+  }
+  EXPECT_TRUE(points_to_hold_the_head(landmarks_with(kOnBand, 0.01, none)).by_landmarks.empty());
 }
 
 /// Every tenth sample is judged: between two of them the head turns by up to 8 degrees.
@@ -268,6 +347,30 @@ TEST(LargestRigidSet, OfALongRecordingIsFoundInNoise) {
   const TrackedPoints tracked = tracked_points(motion, {0, 1, 2, 3, 4, 5});
   EXPECT_EQ(tracked.positions.size(), 400u);
   EXPECT_THAT(largest_rigid_set({tracked}, 0.2e-3).points, ElementsAre(0, 1, 2, 3, 4, 5));
+}
+
+/// Two points slip by less than their distances show. They turn the pose of the set, so that four
+/// seem to move: the two, and two that are still and would be lost if they went first.
+TEST(LargestRigidSet, FirstLosesThePointWithoutWhichTheOthersAreStillest) {
+  TrackedPoints tracked;
+  tracked.jitter_m.assign(kOnBand.size(), 0.5e-3);
+  tracked.shortest = 5;
+  for (int k = 0; k < 400; ++k) {
+    Points at(Eigen::Index(kOnBand.size()), 3);
+    for (std::size_t p = 0; p < kOnBand.size(); ++p)
+      at.row(Eigen::Index(p)) = kOnBand[p].transpose();
+    if (k >= 200) {
+      at(3, 0) += 2e-3;
+      at(5, 2) += 1.5e-3;
+    }
+    tracked.positions.push_back(at);
+  }
+  const RigidSet set = largest_rigid_set({tracked}, 0.2e-3);
+  EXPECT_THAT(set.points, ElementsAre(0, 1, 2, 4));
+  EXPECT_THAT(set.left_out, ElementsAre(3, 5));
+  ASSERT_EQ(set.moves_m.size(), kOnBand.size());
+  EXPECT_NEAR(set.moves_m[3], 2e-3, 1e-6);
+  EXPECT_NEAR(set.moves_m[5], 1.5e-3, 1e-6);
 }
 
 TEST(StillPointsBesideLandmarks, NameTheOneThatMovesInNoise) {
@@ -369,8 +472,10 @@ TEST(StillPointsBesideLandmarks, OfRealRecordingsAreTheBandAlone) {
 }
 
 TEST(StillPoints, AMissingPoseProposesThem) {
-  testing::expect_refused([] { stabilise(nodding()); },
-                          {"rigid_points", "as points of the skull do: top, left, right, nose"});
+  testing::expect_refused(
+      [] { stabilise(nodding()); },
+      {"rigid_points",
+       "these keep still against each other, as points of the skull do: top, left, right, nose"});
   EXPECT_FALSE(has_pose_points(nodding()));
 }
 

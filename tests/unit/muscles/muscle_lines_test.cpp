@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/geometry/closest_point.hpp"
@@ -79,6 +82,39 @@ TEST(MuscleLines, BeginAndEndAtTheirPlaces) {
     const SurfaceTree skin(face.mesh.volume.outer);
     EXPECT_LT((skin.query(by_hand(path.front())).point - first).norm(), 1e-4) << line.name;
     EXPECT_LT((skin.query(by_hand(path.back())).point - last).norm(), 1e-4) << line.name;
+  }
+}
+
+/// The angle between a muscle's way from origin to insertion and the midline, from in front: 0
+/// downwards, above 0 towards the midline, below 0 away from it.
+double to_midline_deg(const MuscleLine& line, const face::FaceFrame& frame) {
+  const Vec3 way = (line.line.row(line.line.rows() - 1) - line.line.row(0)).transpose();
+  const double side = line.left ? 1 : -1;
+  return std::atan2(-side * way.dot(frame.x), -way.dot(frame.y)) * 180 / std::numbers::pi;
+}
+
+/// Mean and standard deviation in 50 half faces (Hwang et al., Angle Orthod. 79, 2009, 70). Levator
+/// alaeque runs outwards to the lip.
+TEST(MuscleLines, RunAtTheAnglesThatDissectionFound) {
+  struct Dissected {
+    const char* muscle;
+    double mean_deg, sigma_deg;
+  };
+  const test::AFace& face = test::a_face();
+  const face::FaceFrame frame = face::face_frame(face.landmarks);
+  const auto lines = lines_of(muscle_template());
+  for (const Dissected& d :
+       {Dissected{"zyg_minor", 55.7, 6.4}, Dissected{"lev_alaeque", -20.2, 3.2},
+        Dissected{"lev_lab_sup", 25.8, 4.8}}) {
+    int found = 0;
+    for (const MuscleLine& line : lines) {
+      if (muscle_template()[std::size_t(line.row)].name != d.muscle) continue;
+      ++found;
+      const double angle_deg = to_midline_deg(line, frame);
+      RecordProperty(line.name, std::to_string(angle_deg));
+      EXPECT_NEAR(angle_deg, d.mean_deg, d.sigma_deg) << line.name;
+    }
+    EXPECT_EQ(found, 2) << d.muscle;
   }
 }
 

@@ -24,7 +24,7 @@ simulate::MuscleCourse told_course() {
 }
 
 TEST(Activations, AreToldAtTheSampleOfMostActivationWithWhatThePriorDecides) {
-  const Json json = activations_json(told_course(), 7);
+  const Json json = activations_json(told_course());
   EXPECT_EQ(json["time_s"], 0.5);
   EXPECT_EQ(json["jaw_opening_deg"], 4);
   const Json& group = json["groups"]["elevators"];
@@ -37,13 +37,22 @@ TEST(Activations, AreToldAtTheSampleOfMostActivationWithWhatThePriorDecides) {
   EXPECT_EQ(json["mostly_prior"], Json::array({"corrugator_L"})) << "1 - (0.28 / 0.3)^2";
 }
 
+/// As the fit judged the points, whatever their number.
+TEST(Activations, AreReadAsTheFitTookItsPoints) {
+  simulate::MuscleCourse course = told_course();
+  course.few_points = true;
+  EXPECT_TRUE(activations_json(course)["reading"].get<std::string>().starts_with("so few points"));
+  course.few_points = false;
+  EXPECT_TRUE(activations_json(course)["reading"].get<std::string>().starts_with("sums over"));
+}
+
 TEST(Activations, ALineCountsThem) {
-  EXPECT_EQ(activations_line({{"muscles", activations_json(told_course(), 7)}}),
+  EXPECT_EQ(activations_line({{"muscles", activations_json(told_course())}}),
             "activations of the 4 muscles at 0.50 s: different from 0 (95 %) 1, mostly the prior's "
             "choice 1\n");
   simulate::MuscleCourse changed = told_course();
   changed.groups.clear();
-  EXPECT_EQ(activations_line({{"muscles", activations_json(changed, 7)}}), "");
+  EXPECT_EQ(activations_line({{"muscles", activations_json(changed)}}), "");
   EXPECT_EQ(activations_line(Json::object()), "");
 }
 

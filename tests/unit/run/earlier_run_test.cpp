@@ -20,11 +20,13 @@ TEST(EarlierRun, IsKnownByItsSummaryAlone) {
         "{\"program\": 3}", "{\"files\": [\"a\"]}"}) {
     folder.write("summary.json", summary);
     EXPECT_THAT(files_of_earlier_run(folder / ""), IsEmpty()) << summary;
+    EXPECT_FALSE(is_folder_of_run(folder / "")) << summary;
   }
   folder.write("summary.json", "{\"program\": \"hyperex\", \"files\": [\"b\", \"a/c\", 3]}");
   EXPECT_THAT(files_of_earlier_run(folder / ""), ElementsAre("a/c", "b"));
   folder.write("summary.json", "{\"program\": \"hyperex\", \"files\": \"all\"}");
   EXPECT_THAT(files_of_earlier_run(folder / ""), ElementsAre("all"));
+  EXPECT_TRUE(is_folder_of_run(folder / ""));
 }
 
 TEST(EarlierRun, AnotherCommandsOutputsAreNotARuns) {
@@ -32,6 +34,7 @@ TEST(EarlierRun, AnotherCommandsOutputsAreNotARuns) {
   folder.write("summary.json",
                R"({"program": "hyperex", "command": "ct", "files": ["skin.ply", "summary.json"]})");
   EXPECT_THAT(files_of_earlier_run(folder / ""), IsEmpty());
+  EXPECT_FALSE(is_folder_of_run(folder / ""));
 }
 
 TEST(EarlierRun, WithoutAListTheNamesOfOutputsAreTaken) {

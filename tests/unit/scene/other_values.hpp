@@ -18,7 +18,7 @@ inline nlohmann::json other_value(const Key& key) {
   const nlohmann::json standard = key.get(Scene{});
   switch (key.kind) {
     case Kind::flag:
-      return !standard.get<bool>();
+      return !default_of(key).get<bool>();
     case Kind::integer:
       return standard.get<int>() + 1;
     case Kind::number: {
@@ -50,6 +50,8 @@ inline nlohmann::json other_value(const Key& key) {
     case Kind::rows:
       break;
   }
+  if (key.name == "tissue.layer")
+    return {{{"name", "skin"}, {"thickness_mm", 1.75}, {"young_factor", 2.5}}};
   if (key.name == "tissue.region") return {{{"name", "nose"}, {"young_factor", 2.5}}};
   if (key.name == "tissue.point")
     return {{{"landmark", "cheek"}, {"side", "R"}, {"young_kpa", 12.5}}};

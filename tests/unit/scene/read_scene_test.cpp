@@ -203,6 +203,47 @@ TEST(ReadScene, VariantsAreTheSceneWithTheirChanges) {
   EXPECT_TRUE(scene.variants[1].scene.variants.empty());
 }
 
+TEST(ReadScene, LipsAreKeptApartWhereEveryFaceHasLinearStrain) {
+  const SceneFolder folder;
+  const auto lips = [&](const std::string& more, const std::vector<std::string>& overrides = {}) {
+    const Scene scene = read_scene(folder.write("scene.toml", smallest + more), overrides);
+    for (const Variant& variant : scene.variants) {
+      EXPECT_EQ(variant.scene.contact.lips, scene.contact.lips) << "faces are compared";
+    }
+    EXPECT_EQ(scene.origins.contains("contact.lips"), false) << "nobody gave it";
+    return scene.contact.lips;
+  };
+  const std::string variant = "[[variant]]\nname = \"v\"\n";
+  EXPECT_TRUE(lips(""));
+  EXPECT_TRUE(lips(variant + "tissue.young_kpa = 400\n"));
+  EXPECT_FALSE(lips("[tissue]\nstrain = \"finite\"\n"));
+  EXPECT_FALSE(lips("", {"tissue.strain=finite"}));
+  EXPECT_FALSE(lips(variant + "tissue.strain = \"finite\"\n"));
+  EXPECT_FALSE(lips("[tissue]\nstrain = \"finite\"\n" + variant + "tissue.strain = \"linear\"\n"));
+  for (const char* given : {"true", "false"}) {
+    const std::string finite = "[tissue]\nstrain = \"finite\"\n";
+    for (const std::string& text : {std::string(), finite}) {
+      const Scene scene = read_scene(
+          folder.write("scene.toml", smallest + text + "[contact]\nlips = " + given + "\n"));
+      EXPECT_EQ(scene.contact.lips, given == std::string("true")) << text;
+    }
+  }
+}
+
+TEST(ReadScene, WithoutItsVariantsLipsAreAsInASceneThatHasNone) {
+  const SceneFolder folder;
+  const auto lips = [&](const std::string& more) {
+    Scene scene = read_scene(folder.write(
+        "scene.toml", smallest + more + "[[variant]]\nname = \"v\"\ntissue.strain = \"finite\"\n"));
+    leave_out_variants(scene);
+    EXPECT_TRUE(scene.variants.empty());
+    return scene.contact.lips;
+  };
+  EXPECT_TRUE(lips(""));
+  EXPECT_FALSE(lips("[tissue]\nstrain = \"finite\"\n"));
+  EXPECT_FALSE(lips("[contact]\nlips = false\n"));
+}
+
 TEST(ReadScene, AScanOrARecordingIsNoScene) {
   const SceneFolder folder;
   EXPECT_THAT(

@@ -70,6 +70,19 @@ preset = "granite"
 interpolation = "linear"
 mirror = true
 per_vertex = "points.json"
+[[tissue.layer]]
+name = "skin"
+thickness_mm = 1.5
+young_kpa = 106
+viscosity_factor = 1.6
+poisson_factor = 0.7
+density_kg_m3 = 1003
+[[tissue.layer]]
+name = "deep"
+young_factor = 0.25
+viscosity_pa_s = 107
+poisson = 0.43
+density_factor = 3
 [[tissue.point]]
 landmark = "cheek"
 side = "R"
@@ -200,6 +213,15 @@ picture_times_s = [0.48, 0.49]
   const std::vector<tissue::TissuePoint> points = {{"cheek", "R", Given{101e3, 102, 0.41, 1001}},
                                                    {"chin", "", Given{std::nullopt, 103}}};
   EXPECT_EQ(s.tissue.points, points);
+  const std::vector<tissue::TissueLayer> layers = {
+      {.name = "skin",
+       .thickness_m = 0.0015,
+       .value = {106e3, std::nullopt, std::nullopt, 1003},
+       .factor = {std::nullopt, 1.6, 0.7}},
+      {.name = "deep",
+       .value = {std::nullopt, 107, 0.43},
+       .factor = {0.25, std::nullopt, std::nullopt, 3}}};
+  EXPECT_EQ(s.tissue.layers, layers);
   const std::vector<tissue::TissueRegion> regions = {
       {.name = "nose", .blend_m = 0.0025, .value = {104e3}, .factor = {std::nullopt, 1.5, 0.5, 2}},
       {.scar = {"a", "b"}, .width_m = 0.0035, .factor = {3}},

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <string>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
@@ -90,6 +91,75 @@ TEST(FaceSession, AsksWhatTheSameForcesDoInOtherTissue) {
   EXPECT_EQ(&face.performance(), &face.variants()[0].simulation.performance) << "that of set()";
   face.set("tissue.young_kpa", 100);
   EXPECT_LT(apart_mm(face.run(), before), 0.05) << "the forces make the recorded motion";
+}
+
+/// Mean displacement at the peak of the skin 25 to 40 mm from the corners of the mouth, where no
+/// point drives.
+double beside_the_corners_mm(const FaceSession& face, const FaceResult& result) {
+  const simulate::Performance& p = result.performance();
+  const io::Landmarks& at = face.inputs().landmarks;
+  double sum = 0, count = 0;
+  for (Eigen::Index v = 0; v < p.skin_rest.points.rows(); ++v) {
+    const Vec3 place = p.skin_rest.points.row(v);
+    const double away_m =
+        std::min((place - at.at("cheilion_L")).norm(), (place - at.at("cheilion_R")).norm());
+    if (away_m < 0.025 || away_m > 0.04) continue;
+    sum += p.skin_displacement_m[std::size_t(p.peak_frame)].row(v).norm();
+    ++count;
+  }
+  return 1e3 * sum / count;
+}
+
+TEST(FaceSession, UnderAStifferSkinTheSameForcesMoveTheFaceLess) {
+  FaceSession face =
+      session_of("scan.file = \"embedded\"\nmotion.arkit = '" HYPEREX_SOURCE_DIR
+                 "/examples/smile_arkit.csv'\nmesh = { element_size_mm = 10, layers = 1 }\n"
+                 "time.frame_rate_hz = 5\ndrive.by = \"muscles\"\n");
+  const FaceResult before = face.run();
+  const double plain_mm = beside_the_corners_mm(face, before);
+  EXPECT_GT(plain_mm, 1);
+  const Value skin = Value::from_json(
+      R"([{"name": "skin", "thickness_mm": 2, "young_factor": 10}, {"name": "deep"}])");
+  face.set("tissue.layer", skin);
+  const FaceResult after = face.run();
+  EXPECT_LT(beside_the_corners_mm(face, after), 0.8 * plain_mm);
+  expect_equal(face.variant("skin", {{"tissue.layer", skin}}), after);
+  face.set("tissue.layer[0].young_factor", 1);
+  EXPECT_LT(apart_mm(face.run(), before), 0.05) << "a layer like the rest changes nothing";
+}
+
+/// A layer that ends within the thinnest tissue is not noted.
+TEST(FaceSession, NotesWhereTheTissueIsTooThinForItsLayers) {
+  std::vector<Note> heard;
+  const auto times_heard = [](const std::vector<Note>& notes) {
+    return std::ranges::count(notes, std::string("tissue.layers_end"), &Note::id);
+  };
+  const auto noted = [&](const std::string& more) {
+    heard.clear();
+    const FaceSession face(scene_of(kCoarse + more),
+                           {.certainty = Certainty::on_request,
+                            .note = [&](const Note& note) { heard.push_back(note); }});
+    std::vector<std::string> of;
+    for (const Note& note : face.notes())
+      if (note.id == "tissue.layers_end") of.push_back(note.variant + ":" + note.key);
+    EXPECT_EQ(times_heard(heard), long(of.size()));
+    return of;
+  };
+  const std::string thick = "layer = [{ name = \"fat\", thickness_mm = 7, young_factor = 0.5 }]\n";
+  EXPECT_THAT(noted(""), testing::IsEmpty());
+  EXPECT_THAT(noted("[[tissue.layer]]\nthickness_mm = 1\nyoung_factor = 2\n"), testing::IsEmpty());
+  EXPECT_THAT(noted("[[variant]]\nname = \"v\"\ntissue." + thick),
+              testing::ElementsAre("v:tissue.layer"));
+  EXPECT_THAT(noted("[[tissue.layer]]\nthickness_mm = 7\nyoung_factor = 0.5\n"),
+              testing::ElementsAre(":tissue.layer"));
+  heard.clear();
+  FaceSession face(scene_of(kCoarse), {.certainty = Certainty::on_request,
+                                       .note = [&](const Note& note) { heard.push_back(note); }});
+  EXPECT_EQ(times_heard(heard), 0);
+  face.set("tissue.layer", Value::from_json(R"([{"thickness_mm": 7, "young_factor": 0.5}])"));
+  EXPECT_EQ(times_heard(heard), 1);
+  face.set("tissue.layer[0].young_factor", 0.6);
+  EXPECT_EQ(times_heard(heard), 1) << "once";
 }
 
 TEST(FaceSession, ChangesPartsOfLists) {

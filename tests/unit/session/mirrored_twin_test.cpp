@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "hyperex/anatomy/embedded_face.hpp"
@@ -143,6 +144,25 @@ TEST(MirroredValues, TakeTheOtherSidesStiffnessAndVolume) {
             0.2 * distance(left.element[tissue::young], right.element[tissue::young]));
   take_mirrored(maker.make({}), mesh, plane, mirrored);
   EXPECT_TRUE(mirrored.volume_ratio.empty());
+
+  // A skin that is stiffer on the left, over tissue that is alike on both sides.
+  const auto layered = [&](const char* name) {
+    tissue::TissueFieldOptions options;
+    options.layers = {{.name = "skin", .thickness_m = 0.002, .factor = {8.0}}, {.name = "deep"}};
+    if (*name) options.regions = {{.name = name, .factor = {3.0}}};
+    return maker.make(options);
+  };
+  const tissue::TissueField stiff_left = layered("cheek_L"), stiff_right = layered("cheek_R");
+  const std::vector<double>& of_right = stiff_right.element[tissue::young];
+  take_mirrored(stiff_left, mesh, plane, mirrored);
+  EXPECT_LT(distance(mirrored.element[tissue::young], of_right),
+            0.2 * distance(stiff_left.element[tissue::young], of_right));
+  const tissue::TissueField alike = layered("");
+  const std::vector<double>& young = alike.element[tissue::young];
+  EXPECT_GT(std::ranges::max(young), 1.5 * std::ranges::min(young));
+  take_mirrored(alike, mesh, plane, mirrored);
+  for (std::size_t t = 0; t < young.size(); ++t)
+    EXPECT_NEAR(mirrored.element[tissue::young][t] / young[t], 1, 1e-12);
 }
 
 }  // namespace

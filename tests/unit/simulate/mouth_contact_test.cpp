@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "hyperex/anatomy/lips.hpp"
+#include "hyperex/core/error.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
@@ -99,6 +100,44 @@ TEST_F(MouthContactOfAFace, VariantsTouchToo) {
                                        .maxCoeff()));
   EXPECT_LT(apart, 1e-5) << "as good as the same tissue";
   EXPECT_LT(answered.report.contact.left_mm, 0.1);
+}
+
+TEST_F(MouthContactOfAFace, AStreamKeepsTheLipsApart) {
+  const AlignedMotion shut = closing(0.002);
+  const std::shared_ptr<const tissue::TissueMesh> mesh(std::shared_ptr<void>(), &face_.mesh);
+  const auto stream_of = [&](bool contact) {
+    options_.contact.lips = contact;
+    Simulator simulator(mesh, face_.landmarks, shut, options_);
+    simulator.start_stream(1.0 / 30);
+    std::vector<PointsF> frames;
+    for (const Points& points : shut.motion.positions)
+      frames.push_back(simulator.step(points - shut.rest));
+    return frames;
+  };
+  const LipSurfaces lips(face_.mesh, face_.landmarks);
+  const std::vector<PointsF> free = stream_of(false), with = stream_of(true);
+  double before = 0, after = 0;
+  int alike = 0;
+  for (std::size_t f = 0; f < free.size(); ++f) {
+    before = std::max(before, lips.depth(free[f]));
+    after = std::max(after, lips.depth(with[f]));
+    alike += free[f] == with[f];
+  }
+  EXPECT_GT(before, 0.5e-3);
+  EXPECT_LT(after, 0.02e-3);
+  EXPECT_GT(alike, 2) << "no lip is in the other's way";
+  EXPECT_LT(alike, int(free.size()));
+}
+
+TEST_F(MouthContactOfAFace, AStreamHasNoContactWithTeethOrEyes) {
+  for (bool ContactOptions::*const key : {&ContactOptions::teeth, &ContactOptions::eyes}) {
+    options_.contact = {};
+    options_.contact.*key = true;
+    Simulator simulator(
+        std::shared_ptr<const tissue::TissueMesh>(std::shared_ptr<void>(), &face_.mesh),
+        face_.landmarks, closing(0.002), options_);
+    EXPECT_THROW(simulator.start_stream(1.0 / 30), InputError);
+  }
 }
 
 /// `make tsan` runs this test: a face and its mirrored twin have contact in parallel threads.

@@ -100,6 +100,7 @@ TEST_F(DrivenByForces, MusclesMeetTheDrivenPoints) {
   const MuscleCourse& muscles = result.performance.muscles;
   ASSERT_EQ(muscles.names.size(), 52u);
   EXPECT_EQ(muscles.activation.rows(), 52);
+  EXPECT_TRUE(muscles.few_points);
   EXPECT_EQ(muscles.activation.cols(), 16);
   EXPECT_EQ(muscles.sigma.cols(), 16);
   ASSERT_EQ(muscles.prior_sigma.cols(), 16);

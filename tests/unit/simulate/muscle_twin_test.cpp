@@ -92,6 +92,7 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
                   measured_region(face_.mesh, face_.landmarks, motion, options_.region), options_,
                   muscle_model(face_.mesh, face_.landmarks, options_, stiffness_, model.order()));
   EXPECT_EQ(load.muscles.names.size(), std::size_t(count));
+  EXPECT_FALSE(load.muscles.few_points);
 
   std::map<std::string, std::array<Eigen::VectorXd, 2>> sums;  // of a group on a side
   for (Eigen::Index m = 0; m < count; ++m) {

@@ -52,6 +52,8 @@ TEST_F(StudioSession, TellsTheBoundsOfTheColumnsOfTablesAsTheirStructsDescribeTh
   const json keys = ask("hello")["keys"];
   expect_columns<tissue::TissueRegion>(named(keys, "tissue.region"),
                                        {"young_factor", "viscosity_factor", "volume_ml"});
+  expect_columns<tissue::TissueLayer>(named(keys, "tissue.layer"),
+                                      {"thickness_mm", "young_factor"});
   expect_columns<tissue::DepthRegion>(named(keys, "mesh.thickness_region"), {"thickness_mm"});
   expect_columns<simulate::BoneMove>(named(keys, "surgery.bone"),
                                      {"move_mm", "turn_deg", "cut_shift_mm"});

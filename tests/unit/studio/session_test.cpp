@@ -6,6 +6,7 @@
 #include "hyperex/core/files.hpp"
 #include "hyperex/run/run_scene.hpp"
 #include "hyperex/scene/scene_text.hpp"
+#include "support/resident_memory.hpp"
 #include "unit/studio/session_fixture.hpp"
 
 namespace hyperex::studio {
@@ -180,6 +181,29 @@ TEST_F(StudioSession, UndoesAndRedoesEachStep) {
   ask("remove_variant", {{"face", 1}});
   EXPECT_EQ(event("scene")->head["faces"].size(), 1U);
   work();
+}
+
+TEST_F(StudioSession, UndoGivesTheMemoryOfItsFacesBackToTheSystem) {
+  if (!test::keep_freed_memory()) GTEST_SKIP() << "another allocator";
+  open();
+  const auto add = [&](int number) {
+    ask("add_variant", {{"name", std::to_string(number)}, {"like", 0}});
+    EXPECT_FALSE(set({{"tissue.young_kpa", 120 + 20 * number}}, number).contains("error"));
+    work();
+  };
+  const auto undo = [&] {
+    ask("undo");
+    ask("undo");
+  };
+  add(1);  // what libraries keep from their first use stays
+  undo();
+  const double before = test::resident_mib();
+  for (const int number : {1, 2, 3}) add(number);
+  const double grown = test::resident_mib() - before;
+  EXPECT_GT(grown, 15);
+  for (int k = 0; k < 3; ++k) undo();
+  EXPECT_EQ(event("scene")->head["faces"].size(), 1U);
+  EXPECT_LT(test::resident_mib() - before, 0.5 * grown);
 }
 
 TEST_F(StudioSession, AFacesNameIsRefusedInWordsAndNotByAPlaceInTheFile) {

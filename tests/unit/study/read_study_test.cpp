@@ -97,6 +97,34 @@ TEST_F(ReadStudy, PathsAreRelativeToTheStudy) {
             *this / "data/b.csv");
 }
 
+/// Whether each case keeps the lips apart.
+std::vector<bool> lips_kept_apart(const Study& study) {
+  std::vector<bool> all;
+  for (const Case& one : study.cases)
+    all.push_back(scene::read_scene_with(study.scene, one.overrides).contact.lips);
+  return all;
+}
+
+/// Else contact would make a part of what strain seems to make.
+TEST_F(ReadStudy, CasesBesideOneOfFiniteStrainHaveItsContact) {
+  using Lips = std::vector<bool>;
+  const std::string strains = "tissue.strain = [\"linear\", \"finite\"]\n";
+  const Study both = study("[grid]\n" + strains);
+  EXPECT_EQ(lips_kept_apart(both), (Lips{false, false}));
+  EXPECT_EQ(both.cases[0].overrides.back().text, "contact.lips=false");
+  EXPECT_THAT(texts(both.cases[1]), ElementsAre("tissue.strain=\"finite\"")) << "as it was";
+  EXPECT_EQ(lips_kept_apart(study("[grid]\ntissue.strain = [\"linear\"]\n")), Lips{true});
+  EXPECT_EQ(lips_kept_apart(study("[grid]\ntissue.young_kpa = [30, 60]\n")), (Lips{true, true}));
+  write("cases.csv", "case,tissue.strain\nas the scene,\nother,finite\n");
+  EXPECT_EQ(lips_kept_apart(study("cases = \"cases.csv\"\n")), (Lips{false, false}));
+  EXPECT_EQ(lips_kept_apart(study("set = { contact.lips = true }\n[grid]\n" + strains)),
+            (Lips{true, true}));
+  EXPECT_EQ(lips_kept_apart(study("[grid]\ncontact.lips = [true, false]\n" + strains)),
+            (Lips{true, true, false, false}));
+  write("scene.toml", read(*this / "scene.toml") + "[contact]\nlips = true\n");
+  EXPECT_EQ(lips_kept_apart(study("[grid]\n" + strains)), (Lips{true, true}));
+}
+
 struct Fault {
   const char *name, *text, *sentence;
 };

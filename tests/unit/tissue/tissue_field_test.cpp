@@ -5,12 +5,14 @@
 #include <gmock/gmock.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "hyperex/anatomy/embedded_face.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/tissue/field/layers.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
 #include "support/refusal.hpp"
@@ -194,6 +196,56 @@ TEST_F(Field, FactorsHoldInsideFadeOverTheBlendAndEndOutside) {
       EXPECT_EQ(e, 192.4e3);
     }
   }
+}
+
+TEST_F(Field, LayersOfFactorOneChangeNothingToTheBit) {
+  TissueFieldOptions options = with_region("cheek_R", 5);
+  options.points = {{"cheilion", "", {std::nullopt, 300}}};
+  const TissueField plain = maker_->make(options);
+  options.layers = {{.name = "skin", .thickness_m = 0.002, .factor = {1, 1, 1, 1}},
+                    {.name = "fat", .thickness_m = 0.0027, .factor = {1, 1, 1, 1}},
+                    {.name = "deep"}};
+  const TissueField layered = maker_->make(options);
+  ASSERT_EQ(layered.deeper.size(), 2u);
+  for (int p = 0; p < parameter_count; ++p) {
+    EXPECT_EQ(layered.skin[p], plain.skin[p]);
+    EXPECT_EQ(layered.element[p], plain.element[p]);
+  }
+  EXPECT_TRUE(plain.deeper.empty() && plain.layer_share.size() == 0 && plain.notes.empty());
+}
+
+TEST_F(Field, RegionsMultiplyLayersAndPointsReplaceThem) {
+  TissueFieldOptions options;
+  options.layers = {{.name = "skin", .thickness_m = 0.002, .value = {8e5, 300}}, {.name = "deep"}};
+  const TissueField alone = maker_->make(options);
+  EXPECT_TRUE(is_graded(options) && alone.varies_within(young) && !alone.varies(young));
+  EXPECT_FALSE(alone.varies_within(density));
+  const Eigen::MatrixXd share = layer_shares(options, mesh_->volume);
+  for (Eigen::Index t = 0; t < share.rows(); ++t)
+    EXPECT_NEAR(alone.element[young][std::size_t(t)], 192.4e3 + share(t, 0) * (8e5 - 192.4e3),
+                1e-6);
+  EXPECT_EQ(std::ranges::min(alone.element[young]), 192.4e3) << "elements under the skin";
+  options.regions = with_region("cheek_R", 5).regions;
+  options.points = {{"cheilion", "", {std::nullopt, 400}}};
+  const TissueField changed = maker_->make(options);
+  const TissueField factor = maker_->make(with_region("cheek_R", 5));
+  for (std::size_t t = 0; t < changed.element[young].size(); ++t) {
+    EXPECT_NEAR(changed.element[young][t] / alone.element[young][t],
+                factor.element[young][t] / 192.4e3, 1e-9);
+    EXPECT_NEAR(changed.element[viscosity][t], 400, 1e-9) << "through the whole thickness";
+  }
+}
+
+TEST_F(Field, LayersBeneathTheTissueAreRefused) {
+  TissueFieldOptions options;
+  options.layers = {{.thickness_m = 0.002, .factor = {2}}, {.thickness_m = 0.03, .factor = {0.5}}};
+  EXPECT_THAT(refusal(options),
+              testing::AllOf(HasSubstr("tissue.layer[1].thickness_mm: expected a layer within"),
+                             HasSubstr("it ends 32.0 mm under the skin")));
+  options.layers = {{.name = "skin"}, {.name = "deep"}};
+  const auto problems = problems_of(options, *landmarks_);
+  ASSERT_EQ(problems.size(), 1u);
+  EXPECT_EQ(problems[0].key, "layer[0].thickness_mm");
 }
 
 TEST_F(Field, ScarsRunOnTheSkinBetweenTheirLandmarks) {
@@ -413,6 +465,28 @@ TEST_F(Field, EachSideTakesTheVolumeThatIsMirrored) {
   EXPECT_NEAR(both.added_volume_m3, 4e-6, 1e-15);
   EXPECT_NEAR(at(both.skin_volume_ratio, landmarks_->at("cheek_L")), one, 0.1 * (one - 1));
   EXPECT_NEAR(at(both.skin_volume_ratio, landmarks_->at("cheek_R")), one, 0.1 * (one - 1));
+}
+
+TEST_F(Field, RefusesLayersAndPointsThatAPresetTakesOutOfRange) {
+  TissueFieldOptions layers;
+  layers.preset = "skin_fat_deep";
+  layers.uniform[young] = 1;  // the least that is allowed
+  EXPECT_TRUE(problems_of(layers, *landmarks_).empty());
+  EXPECT_EQ(refusal(layers),
+            "tissue.preset: expected Young's modulus (kPa) of fat to stay from 0.001 to 1e+06 "
+            "kPa; it would be 0.00016");
+  layers.uniform[young] = 7;
+  EXPECT_EQ(refusal(layers), "");
+  layers.uniform[young] = 8e8;
+  EXPECT_THAT(refusal(layers), HasSubstr(" of skin to stay"));
+  TissueFieldOptions points;
+  points.preset = "aged_skin";
+  points.points = {{"cheek_L", "", {6e8}}, {"cheek_R", "", {1e5}}};
+  EXPECT_THAT(refusal(points), testing::AllOf(HasSubstr("tissue.preset: expected"),
+                                              HasSubstr(" at points to stay from"),
+                                              HasSubstr("it would be 1.2e+06")));
+  points.points[0].value[young] = 4e8;
+  EXPECT_EQ(refusal(points), "");
 }
 
 TEST_F(Field, RefusesVolumeWhereNoTissueIs) {

@@ -73,6 +73,58 @@ TEST(MeasuredFace, DirectionsAreThoseOfTheFirstHead) {
   EXPECT_NEAR(value_of(here, "corner_along_first", "R"), 0.5e3 * kWholeSmile.norm(), 0.05);
 }
 
+/// The same with four points of a band, which sits `askew` on the head.
+motion::Motion with_band(motion::Motion motion, const Eigen::Matrix3d& askew) {
+  Points band(4, 3);
+  band << -0.07, 0.05, -0.02, 0.07, 0.05, -0.02, -0.04, 0.08, 0.02, 0, 0.12, -0.03;
+  for (int i = 1; i <= 4; ++i) motion.names.push_back("head_" + std::to_string(i));
+  for (Points& at : motion.positions) {
+    at.conservativeResize(at.rows() + 4, 3);
+    at.bottomRows(4) = band * askew.transpose();
+  }
+  return motion;
+}
+
+TEST(MeasuredFace, DirectionsAreThoseOfTheSkullWhereABandIsChosen) {
+  VisitsFile file = visits_of(2);
+  file.rigid_points = {"head_1", "head_2", "head_3", "head_4"};
+  const Eigen::Matrix3d straight = Eigen::Matrix3d::Identity(),
+                        askew = Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix();
+  const MeasuredFace first = measure(with_band(recording_of({}), straight), file, 0.0, nullptr);
+  const auto up = [&](const Eigen::Matrix3d& turned, const std::string& side) {
+    const motion::Motion later = with_band(recording_of({.right = 0.5}), turned);
+    return value_of(measure(later, file, 0.0, &first), "corner_up", side);
+  };
+  for (const char* side : {"R", "L"}) EXPECT_NEAR(up(askew, side), up(straight, side), 1e-6);
+}
+
+/// The other landmarks lie elsewhere at the second visit.
+TEST(MeasuredFace, DirectionsAreThoseOfLandmarksThatAreChosen) {
+  VisitsFile file = visits_of(2);
+  file.rigid_points = {"17", "21", "26", "27"};
+  const MeasuredFace first = measure(recording_of({}), file, 0.0, nullptr);
+  motion::Motion later = recording_of({});
+  for (Points& at : later.positions)
+    for (const int i : {36, 39, 42, 45, 28, 29, 0, 16}) at(i, 2) += i % 2 ? 0.01 : -0.01;
+  EXPECT_LT(measure(later, file, 0.0, &first).head_fit_m, 1e-9);
+}
+
+/// The one handed on has the head in it.
+TEST(MeasuredFace, TakesThePoseThatWasEstimatedAlready) {
+  motion::Motion rising = recording_of({});
+  for (std::size_t k = 0; k < rising.positions.size(); ++k)
+    rising.positions[k].col(1).array() += 5e-3 * rising.time_s[k];
+  motion::StillPoints searched;
+  searched.by_landmarks = {motion::with_still_head(rising)};
+  const auto excursion_mm = [&](std::size_t recording) {
+    const MeasuredFace face = measure(rising, visits_of(1), 0.0, nullptr, searched, recording);
+    return value_of(face, "corner_excursion", "R");
+  };
+  const MeasuredFace own = measure(rising, visits_of(1), 0.0, nullptr);
+  EXPECT_EQ(excursion_mm(1), value_of(own, "corner_excursion", "R")) << "none is handed on";
+  EXPECT_GT(excursion_mm(0), excursion_mm(1) + 3);
+}
+
 TEST(MeasuredFace, NoiseAfterTheFilterIsThatOfManyDraws) {
   std::vector<double> time_s;
   for (int k = 0; k < 60; ++k) time_s.push_back(k < 30 ? k / 30.0 : 1 + (k - 30) / 120.0);

@@ -26,6 +26,9 @@
 namespace hyperex::simulate {
 namespace {
 
+/// Clear of the nostrils.
+constexpr double kBelowNose_m = 3e-3;
+
 /// The points that drive.
 struct Driven {
   std::vector<int> rows;
@@ -47,10 +50,9 @@ struct Driven {
       points.push_back({names[i], motion.rest.row(rows[i]).transpose()});
     }
     carrier = carriers(mesh, skin_places(mesh, names, rest));
-    const Vec3 nose = landmarks.at(face::ibug(33)), up = face::face_frame(landmarks).y;
-    below_nose_ = (((rest.rowwise() - nose.transpose()) * up).array() < -kBelowNose_m).count();
+    few_ = few_points(rest, landmarks);
   }
-  bool few() const { return below_nose_ <= kFewPoints; }
+  bool few() const { return few_; }
   Eigen::VectorXd of(const Points& all) const {
     Eigen::VectorXd out(3 * static_cast<Eigen::Index>(rows.size()));
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -59,8 +61,7 @@ struct Driven {
   }
 
  private:
-  static constexpr double kBelowNose_m = 3e-3;  // clear of the nostrils
-  Eigen::Index below_nose_ = 0;
+  bool few_ = true;
 };
 
 /// Displacements of the driven points at the first samples: 3 P x `samples`, m.
@@ -262,6 +263,11 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
 
 }  // namespace
 
+bool few_points(const Points& rest, const io::Landmarks& landmarks) {
+  const Vec3 nose = landmarks.at(face::ibug(33)), up = face::face_frame(landmarks).y;
+  return (((rest.rowwise() - nose.transpose()) * up).array() < -kBelowNose_m).count() <= kFewPoints;
+}
+
 Eigen::Index samples_of_run(const std::vector<double>& time_s, const TimeOptions& time) {
   // The influence of a sample on a spline's slope falls by a factor of 0.27 per sample of distance.
   constexpr Eigen::Index of_the_curve = 16;
@@ -290,6 +296,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   if (samples < Eigen::Index(motion.motion.time_s.size())) load.until_s = options.time.end_s;
   load.wide_bands = model.wide_force().cols() > 0;
   MuscleCourse& muscle = load.muscles;
+  muscle.few_points = driven.few();
   for (const muscles::MuscleLine& line : model.lines()) muscle.names.push_back(line.name);
   const Eigen::Index of_jaw = jaw_row(load);
   const Eigen::MatrixXd members =
@@ -314,7 +321,6 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
     left_over.col(k) = fitted.left_over;
   }
   muscle.time_s = load.time_s;
-
   const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));
   const Eigen::MatrixXd of_points = at_places(driven.carrier, model.response());
   load.part_makers = parts.makers(of_points);

@@ -17,6 +17,11 @@ namespace hyperex::simulate {
 /// decides most activations of the mouth's muscles.
 inline constexpr int kFewPoints = 20;
 
+/// Whether these driven points are few: at most kFewPoints of them lie more than 3 mm below the
+/// base of the nose. Points of brows, lids and nose tell nothing of the mouth, and do not count.
+/// `rest`: where they are at rest, N x 3, m. `landmarks`: complete, of the same face.
+bool few_points(const Points& rest, const io::Landmarks& landmarks);
+
 /// How many samples of a motion the forces of a run need: those up to its end (TimeOptions::end_s),
 /// and those after it that the curve through the samples depends on up to there.
 /// `time_s`: of the samples, rising, at least one.

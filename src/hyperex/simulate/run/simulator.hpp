@@ -223,11 +223,12 @@ class Simulator {
 
   /// Begins a stream, at rest and with all unknowns: points come in one sample after the other,
   /// `interval_s` apart (> 0), from a tracker that is running. Throws as run(), and InputError
-  /// where forces drive, at finite strain, with contact of the lips, or where the whole skin is
-  /// measured.
+  /// where forces drive, at finite strain, with contact at teeth or eyes, or where the whole skin
+  /// is measured.
   void start_stream(double interval_s);
   /// One step of Newmark's method, damped by kStreamGamma so that noise of single samples does not
-  /// ring. `displacement_m`: of all the motion's points since rest, in its order (P x 3, m, scan
+  /// ring. With contact.lips the lips are kept apart in what is returned; the first sample in which
+  /// they meet takes longer. `displacement_m`: of all the motion's points since rest, in its order (P x 3, m, scan
   /// frame, finite; the gain is applied here). Returns the displacement of the skin (|skin| x 3,
   /// m). Tissue and support that were set meanwhile take effect, and the motion goes on.
   PointsF step(const Points& displacement_m);

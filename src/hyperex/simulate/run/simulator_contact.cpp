@@ -45,12 +45,23 @@ double Simulator::Impl::correct_linear(const ContactFrames& frames,
   fem::PartitionedFactor& factor = *stages.contact_model->factor;
   Eigen::MatrixXd moved = on_free(factor, solution.displacement.rows(), contact.nodes(), force);
   factor.solve(moved);
-  for (std::size_t i = 0; i < touching.size(); ++i) {
-    auto column = solution.displacement.col(Eigen::Index(touching[i]));
-    for (std::size_t u = 0; u < factor.free().size(); ++u)
-      column[factor.free()[u]] += moved(Eigen::Index(u), Eigen::Index(i));
-  }
+  for (std::size_t i = 0; i < touching.size(); ++i)
+    solution.displacement.col(Eigen::Index(touching[i]))(factor.free()) +=
+        moved.col(Eigen::Index(i));
   return residual_m;
+}
+
+Points Simulator::Impl::with_lips_apart(const Eigen::Map<const Points>& nodes,
+                                        const PointsF& skin) {
+  const MouthContact& contact = stages.contact_model->contact;
+  const MouthContact::Correction correction =
+      contact.correct({skin, {}, Eigen::Isometry3d::Identity()});
+  fem::PartitionedFactor& factor = *stages.contact_model->factor;
+  Eigen::MatrixXd moved = on_free(factor, nodes.size(), contact.nodes(), correction.force);
+  factor.solve(moved);
+  Points apart = nodes;
+  apart.reshaped<Eigen::RowMajor>()(factor.free()) += moved.col(0);
+  return apart;
 }
 
 double Simulator::Impl::correct_finite(const ContactFrames& frames,

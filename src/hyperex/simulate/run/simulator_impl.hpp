@@ -164,6 +164,8 @@ struct Simulator::Impl {
   /// complementarity problems, m.
   double correct_linear(const ContactFrames& frames, const std::vector<std::size_t>& touching,
                         Solution& solution);
+  /// The nodes of one frame in which the lips pass through each other, corrected.
+  Points with_lips_apart(const Eigen::Map<const Points>& nodes, const PointsF& skin);
   double correct_finite(const ContactFrames& frames, const std::vector<std::size_t>& touching,
                         const PointCurve& points, Solution& solution);
 

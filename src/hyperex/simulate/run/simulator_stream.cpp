@@ -18,10 +18,12 @@ void Simulator::Impl::start_stream(double interval_s) {
     throw InputError("stream", "the whole skin is measured: there is nothing to simulate");
   if (by_forces())
     throw InputError("stream", "forces need the whole motion: expected drive.by = displacement");
-  if (options.model.strain == Strain::finite || options.contact.lips)
+  if (options.model.strain == Strain::finite)
+    throw InputError("stream", "a stream has no finite strain: expected model.strain = linear");
+  if (options.contact.teeth || options.contact.eyes)
     throw InputError("stream",
-                     "a stream has neither finite strain nor contact: expected model.strain = "
-                     "linear and contact.lips = false");
+                     "a stream keeps only the lips apart: expected contact.teeth = false and "
+                     "contact.eyes = false");
   stages.stream.drop();
   stream_interval_s = interval_s;
   ensure_stream();
@@ -72,8 +74,17 @@ PointsF Simulator::Impl::step(const Points& displacement_m) {
                     1e3 * motion::kFarthest_m));
   ensure_stream();
   const Points points = options.drive.gain * displacement_m;
-  return stages.readout->skin(stages.measured.value(), stages.points->rim,
-                              stages.stream->step(points), points);
+  const auto skin_of = [&](const Eigen::Ref<const Points>& nodes) {
+    return stages.readout->skin(stages.measured.value(), stages.points->rim, nodes, points);
+  };
+  const Eigen::Map<const Points> nodes = stages.stream->step(points);
+  PointsF skin = skin_of(nodes);
+  const LipSurfaces& lips = *stages.readout->lip_surfaces();
+  if (!options.contact.lips || lips.empty() || lips.depth(skin) < MouthContact::kFelt_m)
+    return skin;
+  ensure_obstacle_places();
+  ensure_contact_model();
+  return skin_of(with_lips_apart(nodes, skin));
 }
 
 }  // namespace hyperex::simulate

@@ -17,6 +17,12 @@ GivenParameters values_of(const toml::table& table) {
   return given;
 }
 
+GivenParameters factors_of(const toml::table& table) {
+  GivenParameters given{};
+  for (int p = 0; p < parameter_count; ++p) given[p] = table[factor_key(p)].value<double>();
+  return given;
+}
+
 std::string text_of(const toml::table& table, const char* key) {
   return table[key].value_or(std::string());
 }
@@ -26,13 +32,21 @@ TissuePreset preset_of(const toml::table& table) {
                       text_of(table, "summary"),
                       text_of(table, "source"),
                       values_of(table),
+                      factors_of(table),
                       {},
                       {}};
-  preset.factor[young] = table["young_factor"].value<double>();
   if (const auto* points = table["point"].as_array())
     for (const auto& entry : *points) {
       const toml::table& point = *entry.as_table();
       preset.points.push_back({text_of(point, "landmark"), "", values_of(point)});
+    }
+  if (const auto* layers = table["layer"].as_array())
+    for (const auto& entry : *layers) {
+      const toml::table& layer = *entry.as_table();
+      TissueLayer& own = preset.layers.emplace_back();
+      own = {text_of(layer, "name"), std::nullopt, values_of(layer), factors_of(layer)};
+      if (const auto mm = layer["thickness_mm"].value<double>())
+        own.thickness_m = kMillimetres.to_si(*mm);
     }
   // Our own file: a fault in it is a fault of the build.
   if (preset.name.empty() || preset.source.empty())

@@ -12,6 +12,7 @@ struct TissuePreset {
   std::string name, summary, source;
   GivenParameters uniform{}, factor{};  ///< factor: multiplies all values, also those at points
   std::vector<TissuePoint> points;
+  std::vector<TissueLayer> layers;
 };
 
 /// In the order of the file; parsed at the first call.

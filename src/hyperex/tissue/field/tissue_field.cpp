@@ -12,6 +12,7 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/tissue/field/frontal.hpp"
 #include "hyperex/tissue/field/harmonic.hpp"
+#include "hyperex/tissue/field/layers.hpp"
 #include "hyperex/tissue/field/points.hpp"
 #include "hyperex/tissue/field/presets.hpp"
 #include "hyperex/tissue/field/regions.hpp"
@@ -20,8 +21,6 @@
 
 namespace hyperex::tissue {
 namespace {
-using SkinField = std::array<Eigen::VectorXd, parameter_count>;
-
 /// How much tissue may grow or shrink.
 constexpr double kLeastVolumeRatio = 0.5, kMostVolumeRatio = 2;
 
@@ -114,6 +113,25 @@ Given given_by(const std::vector<ResolvedPoint>& points, int parameter) {
   return given;
 }
 
+/// A preset's factor of a layer, or of the values at points, may take an allowed value out of
+/// range. `by_points`: the parameter is given at points, so that the layer's own value of it counts
+/// no more.
+void refuse_out_of_range(const TissueFieldOptions& options, std::size_t layer, int parameter,
+                         const Eigen::VectorXd& values, bool by_points) {
+  const double least = values.minCoeff(), most = values.maxCoeff();
+  if (is_allowed(parameter, least) && is_allowed(parameter, most)) return;
+  const ParameterInfo& info = parameter_info(parameter);
+  const std::vector<TissueLayer>& layers = layers_of(options);
+  std::string of;
+  if (by_points)
+    of = " at points";
+  else if (layer < layers.size() && !layers[layer].name.empty())
+    of = " of " + layers[layer].name;
+  throw FieldError({options.preset.empty() ? info.key : "preset",
+                    fmt::format("{}{} to stay {}; it would be {:.4g}", info.title, of, info.allowed,
+                                (is_allowed(parameter, least) ? most : least) / info.si)});
+}
+
 bool any(const GivenParameters& values) {
   return std::any_of(values.begin(), values.end(), [](const auto& v) { return v.has_value(); });
 }
@@ -175,6 +193,7 @@ std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
     problems.push_back({"preset", "the name of a preset (hyperex presets lists them)"});
   if (options.mirror && !options.per_vertex.empty())
     problems.push_back({"mirror", "false, as per_vertex covers both sides"});
+  check_layers(options, problems);
   resolve_points(options, landmarks, problems);
   for (std::size_t i = 0; i < options.regions.size(); ++i)
     check_region(options, i, landmarks, problems);
@@ -184,7 +203,14 @@ std::vector<FieldProblem> problems_of(const TissueFieldOptions& options,
 bool is_graded(const TissueFieldOptions& options) {
   const TissuePreset* preset = find_preset(options.preset);
   return !options.points.empty() || !options.regions.empty() || !options.per_vertex.empty() ||
-         (preset && !preset->points.empty());
+         (preset && !preset->points.empty()) || !layers_of(options).empty();
+}
+
+bool TissueField::varies_within(int parameter) const {
+  const Eigen::VectorXd& outer = skin[parameter];
+  return varies(parameter) || std::ranges::any_of(deeper, [&](const SkinField& under) {
+           return ((under[parameter] - outer).array().abs() > 1e-9 * outer.array().abs()).any();
+         });
 }
 
 std::vector<Note> notes_on_files(const TissueFieldOptions& options, const TriMesh& scan) {
@@ -206,35 +232,58 @@ TissueFieldMaker::TissueFieldMaker(const TissueMesh& mesh, const io::Landmarks& 
 }
 
 TissueField TissueFieldMaker::make(const TissueFieldOptions& options) const {
+  if (auto problem = layer_beneath(options, mesh_.volume)) throw FieldError(*std::move(problem));
   TissueField field;
-  field.skin = skin_field(options);
+  field.deeper = skin_fields(options);
+  field.skin = std::move(field.deeper.front());
+  field.deeper.erase(field.deeper.begin());
+  const auto of_elements = [&](const Eigen::VectorXd& skin) {
+    std::vector<double> values(above_.size());
+    for (std::size_t t = 0; t < above_.size(); ++t) values[t] = above_[t].value(skin);
+    return values;
+  };
+  if (!field.deeper.empty()) {
+    field.layer_share = layer_shares(options, mesh_.volume);
+    field.notes = notes_on_layers(options, mesh_.volume);
+  }
   for (int p = 0; p < parameter_count; ++p) {
-    field.element[p].resize(above_.size());
-    for (std::size_t t = 0; t < above_.size(); ++t)
-      field.element[p][t] = above_[t].value(field.skin[p]);
+    std::vector<std::vector<double>> layers = {of_elements(field.skin[p])};
+    for (const SkinField& under : field.deeper) layers.push_back(of_elements(under[p]));
+    field.element[p] =
+        field.deeper.empty() ? std::move(layers.front()) : layer_means(field.layer_share, layers);
   }
   if (adds_volume(options)) add_volumes(options, field);
   return field;
 }
 
-SkinField TissueFieldMaker::skin_field(const TissueFieldOptions& options) const {
+/// One for each of layer_parameters().
+std::vector<SkinField> TissueFieldMaker::skin_fields(const TissueFieldOptions& options) const {
   const Eigen::Index vertices = mesh_.skin.points.rows();
-  SkinField field;
-  const TissueParameters uniform = uniform_parameters(options);
-  for (int p = 0; p < parameter_count; ++p)
-    field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
-  interpolate(options, field);
+  SkinField points;  // empty where none gives the parameter
+  interpolate(options, points);
+  PerVertex own;  // likewise
   if (!options.per_vertex.empty()) {
     std::vector<Note> noted;  // when the inputs were read
-    const PerVertex own = read_per_vertex(options.per_vertex, scan_of(mesh_), noted);
+    own = read_per_vertex(options.per_vertex, scan_of(mesh_), noted);
+    for (Eigen::VectorXd& values : own)
+      if (values.size() > 0) values = on_skin(mesh_, values);
+  }
+  std::vector<SkinField> layers;
+  for (const TissueParameters& uniform : layer_parameters(options)) {
+    const std::size_t layer = layers.size();
+    SkinField& field = layers.emplace_back();
     for (int p = 0; p < parameter_count; ++p) {
-      if (own[p].size() == 0) continue;
-      const Eigen::VectorXd values = on_skin(mesh_, own[p]);
-      field[p] = values.array().isNaN().select(field[p], values);
+      field[p] = Eigen::VectorXd::Constant(vertices, uniform[p]);
+      if (points[p].size() > 0) field[p] = points[p];
+      if (own[p].size() > 0) field[p] = own[p].array().isNaN().select(field[p], own[p]);
+      refuse_out_of_range(options, layer, p, field[p], points[p].size() > 0);
     }
   }
-  for (std::size_t i = 0; i < options.regions.size(); ++i) apply_region(options, i, field);
-  return field;
+  for (std::size_t i = 0; i < options.regions.size(); ++i) {
+    const Eigen::VectorXd shares = region_shares(options, i);
+    for (SkinField& field : layers) apply_region(options, i, field, shares);
+  }
+  return layers;
 }
 
 void TissueFieldMaker::interpolate(const TissueFieldOptions& options, SkinField& field) const {
@@ -338,9 +387,8 @@ Eigen::VectorXd TissueFieldMaker::region_shares(const TissueFieldOptions& option
 }
 
 void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size_t index,
-                                    SkinField& field) const {
+                                    SkinField& field, const Eigen::VectorXd& shares) const {
   const TissueRegion& region = options.regions[index];
-  const Eigen::VectorXd shares = region_shares(options, index);
   const std::string key = fmt::format("region[{}]", index);
   for (int p = 0; p < parameter_count; ++p) {
     if (!region.value[p] && !region.factor[p]) continue;
@@ -352,12 +400,7 @@ void TissueFieldMaker::apply_region(const TissueFieldOptions& options, std::size
       else
         u += share * (*region.value[p] - u);
       if (!is_allowed(p, u)) {
-        std::string name = parameter_info(p).key;
-        if (region.factor[p])
-          name = p == young       ? "young_factor"
-                 : p == viscosity ? "viscosity_factor"
-                 : p == poisson   ? "poisson_factor"
-                                  : "density_factor";
+        const std::string name = region.factor[p] ? factor_key(p) : parameter_info(p).key;
         throw FieldError({key + "." + name,
                           fmt::format("{} to stay {}; it would be {:.4g}", parameter_info(p).title,
                                       parameter_info(p).allowed, u / parameter_info(p).si)});

@@ -13,10 +13,12 @@ namespace hyperex::tissue {
 /// A layer of soft tissue between the skin and an inner surface: prisms over the triangles of the
 /// outer surface, each cut into three tetrahedra.
 struct VolumeMesh {
-  Points nodes;     ///< level by level: node = level * surface_nodes + vertex; level 0 is the skin
-  Tetrahedra tets;  ///< positive volume; those of one prism follow one another
-  TriMesh outer;    ///< the skin side (vertices = nodes of level 0)
-  int layers = 0;   ///< of prisms; levels of nodes are layers + 1
+  Points nodes;  ///< level by level: node = level * surface_nodes + vertex; level 0 is the skin
+  /// Positive volume; three to a prism. Prisms come by the triangles of `outer`, those under one
+  /// triangle from the skin inwards.
+  Tetrahedra tets;
+  TriMesh outer;                ///< the skin side (vertices = nodes of level 0)
+  int layers = 0;               ///< of prisms; levels of nodes are layers + 1
   Eigen::VectorXd thickness_m;  ///< per outer vertex, as built
   std::vector<Note> notes;
 
