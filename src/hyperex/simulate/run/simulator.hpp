@@ -228,9 +228,10 @@ class Simulator {
   void start_stream(double interval_s);
   /// One step of Newmark's method, damped by kStreamGamma so that noise of single samples does not
   /// ring. With contact.lips the lips are kept apart in what is returned; the first sample in which
-  /// they meet takes longer. `displacement_m`: of all the motion's points since rest, in its order (P x 3, m, scan
-  /// frame, finite; the gain is applied here). Returns the displacement of the skin (|skin| x 3,
-  /// m). Tissue and support that were set meanwhile take effect, and the motion goes on.
+  /// they meet takes longer. `displacement_m`: of all the motion's points since rest, in its order
+  /// (P x 3, m, scan frame, finite; the gain is applied here). Returns the displacement of the skin
+  /// (|skin| x 3, m). Tissue and support that were set meanwhile take effect, and the motion goes
+  /// on.
   PointsF step(const Points& displacement_m);
 
  private:
