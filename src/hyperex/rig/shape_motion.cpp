@@ -2,10 +2,12 @@
 #include "hyperex/rig/shape_motion.hpp"
 
 #include <algorithm>
+#include <array>
 #include <map>
 
 #include "hyperex/expression/blend_shapes.hpp"
 #include "hyperex/expression/shape_model.hpp"
+#include "hyperex/face/ibug.hpp"
 
 namespace hyperex::rig {
 namespace {
@@ -48,8 +50,35 @@ Points by_units(const std::string& arkit) {
   return moved.positions[1] - moved.positions[0];
 }
 
+/// The mouthClose of real faces lifts the lower lip by more than jawOpen of the same weight lowers
+/// it, up to 9 mm over the upper one. Here it is scaled so that the inner lips meet as they do at
+/// rest. Between the three pairs of their landmarks, from right to left, the scale is linear.
+Points closing_what_the_jaw_opens() {
+  constexpr std::array pairs = {std::pair{61, 67}, std::pair{62, 66}, std::pair{63, 65}};
+  const expression::FaceModel& face = canonical_model();
+  const Points rest = expression::landmarks_on(face, face.mesh.points);
+  const Points opened = by_real_faces("jawOpen");
+  Points closed = by_real_faces("mouthClose");
+  const auto row = [&](int ibug) {
+    return std::distance(face.landmarks.begin(), face.landmarks.find(face::ibug(ibug)));
+  };
+  std::array<double, 3> x_m, scale;
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const Eigen::Index upper = row(pairs[i].first), lower = row(pairs[i].second);
+    x_m[i] = rest(lower, 0);
+    scale[i] = (opened(upper, 1) - opened(lower, 1)) / (closed(lower, 1) - closed(upper, 1));
+  }
+  for (Eigen::Index k = 0; k < closed.rows(); ++k) {
+    const std::size_t i = rest(k, 0) < x_m[1] ? 0 : 1;
+    const double share = std::clamp((rest(k, 0) - x_m[i]) / (x_m[i + 1] - x_m[i]), 0.0, 1.0);
+    closed.row(k) *= (1 - share) * scale[i] + share * scale[i + 1];
+  }
+  return closed;
+}
+
 /// Displacements of the landmarks at weight 1.
 Points landmarks_moved(const std::string& arkit) {
+  if (arkit == "mouthClose") return closing_what_the_jaw_opens();
   const bool of_lids = arkit.starts_with("eye");
   return of_lids ? by_units(arkit) : by_real_faces(arkit);
 }

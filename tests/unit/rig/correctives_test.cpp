@@ -132,7 +132,7 @@ TEST(RigWithCorrectives, LeavesTheShapesAsTheyAre) {
     EXPECT_FALSE(plain.shapes[k].corrects);
     EXPECT_LT(
         (plain.shapes[k].displacement_m - rig.shapes[k].displacement_m).rowwise().norm().maxCoeff(),
-        2e-4)
+        8e-5)
         << plain.shapes[k].name;
   }
 }

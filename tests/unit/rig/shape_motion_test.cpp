@@ -75,6 +75,18 @@ Vec3 moved(const std::string& shape, const std::string& landmark) {
   return (motion.positions[2].row(row) - motion.positions[0].row(row)).transpose();
 }
 
+/// The shapes of real faces alone would lift the lower lip over the upper one.
+TEST(ShapeMotion, MouthCloseLiftsTheLowerLipAsFarAsJawOpenLowersIt) {
+  for (const auto& [upper, lower] : {std::pair{"ibug68_61", "ibug68_67"},
+                                     {"ibug68_62", "ibug68_66"},
+                                     {"ibug68_63", "ibug68_65"}}) {
+    const double opened_m = moved("jawOpen", upper).y() - moved("jawOpen", lower).y();
+    EXPECT_GT(opened_m, 0.015) << lower;
+    EXPECT_NEAR(moved("mouthClose", lower).y() - moved("mouthClose", upper).y(), opened_m, 1e-5)
+        << lower;
+  }
+}
+
 TEST(ShapeMotion, EachShapeMovesItsPlaceTheRightWay) {
   std::set<std::string> seen;
   for (const Expected& row : expected()) {
