@@ -9,6 +9,7 @@
 #include "hyperex/session/drive_choice.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/face_options.hpp"
+#include "hyperex/session/plausible.hpp"
 #include "hyperex/session/prepared_face.hpp"
 #include "hyperex/session/run_cost.hpp"
 #include "hyperex/simulate/run/simulator.hpp"
@@ -62,6 +63,8 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
   std::vector<Note> notes = face.mesh->notes;
   append(notes, notes_on_tissue(options.field, options.runs));
+  if (auto off = skin_warning(skin_off_scan(*face.mesh, inputs.landmarks)))
+    notes.push_back(*std::move(off));
   return notes;
 }
 

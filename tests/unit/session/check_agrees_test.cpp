@@ -259,6 +259,17 @@ TEST(CheckOfAFineMesh, SaysThatItMakesNone) {
   EXPECT_THAT(notes({}), Not(Contains(test::has_id("mesh.unchecked"))));
 }
 
+/// Not only when it runs.
+TEST(CheckOfACoarseMesh, SaysWhereTheSkinIsOffTheScan) {
+  const scene::SceneFolder folder;
+  const auto file = folder.write("scene.toml", scene::smallest);
+  const auto notes = [&](const std::vector<std::string>& overrides) {
+    return check(scene::read_scene(file, overrides));
+  };
+  EXPECT_THAT(notes({"mesh.element_size_mm=15"}), Contains(test::is_warning("skin.far_from_scan")));
+  EXPECT_THAT(notes({}), Not(Contains(test::has_id("skin.far_from_scan"))));
+}
+
 TEST(CheckOfInputs, MakesNoMesh) {
   const scene::SceneFolder folder;
   const auto scene =
