@@ -2,13 +2,16 @@
 #include "hyperex/session/check_alone.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/face/point_words.hpp"
 #include "hyperex/io/scan.hpp"
+#include "hyperex/session/misplaced_points.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
@@ -22,6 +25,9 @@ namespace {
 constexpr double kSmallest = 0.5, kLargest = 1.8;
 /// How far a person's size may be from the average one, as a factor, where a unit is to be found.
 constexpr double kPeopleDiffer = 1.35;
+/// How far a point must be from its place on the average face, m. People and trackers differ by
+/// less.
+constexpr double kElsewhere_m = 0.015;
 /// Points that are closer together say nothing of size, m.
 constexpr double kLeastSpread_m = 0.01;
 
@@ -84,6 +90,29 @@ std::optional<Note> size_warning_of(const motion::Motion& sample) {
                   advice(ratio, sample.unit_note)));
 }
 
+/// Names up to three points that lie far from their places on the average face.
+std::optional<Note> elsewhere_warning(const motion::Motion& sample) {
+  constexpr std::size_t most_named = 3;
+  const FaceAtRest average = average_face();
+  std::vector<std::string> named;
+  std::size_t count = 0;
+  for (const auto& [name, off_m] : misplaced_points(sample, average.landmarks).points) {
+    if (off_m < kElsewhere_m || ++count > most_named) continue;
+    named.push_back(fmt::format("{} lies {:.0f} mm off", face::name_in_words(name), 1e3 * off_m));
+  }
+  if (count == 0) return std::nullopt;
+  if (count > most_named) named.push_back(fmt::format("and {} more", count - most_named));
+  return make_warning(
+      "recording.point_off",
+      fmt::format(
+          "{} of the recording {} not where {} has {}: {}; {} may be exchanged: correct {} in the "
+          "recording, or leave {} out",
+          count == 1 ? "one point" : fmt::format("{} points", count), count == 1 ? "is" : "are",
+          average.whose, count == 1 ? "it" : "them", fmt::join(named, ", "),
+          count == 1 ? "its name" : "their names", count == 1 ? "it" : "them",
+          count == 1 ? "it" : "them"));
+}
+
 }  // namespace
 
 std::vector<Note> check_alone(const motion::Motion& m, Readings readings) {
@@ -94,6 +123,7 @@ std::vector<Note> check_alone(const motion::Motion& m, Readings readings) {
   add(warnings, sides_warning(sample, average_face()));
   add(warnings, exchanged_warning(sample, average_face()));
   add(warnings, size_warning_of(sample));
+  add(warnings, elsewhere_warning(sample));
   add(warnings, timing_warning(m, readings));
   return warnings;
 }

@@ -13,7 +13,9 @@ namespace hyperex::session {
 // Checks of a recording by itself, by an average face, where no scan shows the person's own.
 
 /// Throws InputError where left and right are exchanged (check_sides, check_pairs). Returns
-/// sides_warning, exchanged_warning, size_warning and timing_warning, in this order. `m` may
+/// sides_warning, exchanged_warning, size_warning, `recording.point_off` and timing_warning, in
+/// this order. `recording.point_off`: points that misplaced_points() finds by the average face and
+/// that lie 15 mm or more from their places there, as where two names are exchanged. `m` may
 /// contain the head's motion and gaps: the first of its samples with the most measured points is
 /// judged.
 std::vector<Note> check_alone(const motion::Motion& m, Readings readings = Readings::measured);

@@ -2,6 +2,7 @@
 #include "hyperex/visits/measured_face.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -302,6 +303,36 @@ void note_shape(const MeasuredFace& first, MeasuredFace& face) {
                   face.file, 1e3 * rms_m, first.file, 1e3 * kOnePerson_m));
 }
 
+/// A corner of the mouth that is at rest elsewhere than at the first visit, relative to brows, eyes
+/// and nose. A movement is counted from there, so a recording that begins in an expression would
+/// show a loss.
+void note_corners_at_rest(const MeasuredFace& first, MeasuredFace& face) {
+  constexpr double kElsewhere_m = 3e-3;
+  constexpr std::size_t kFewest = 12;
+  std::vector<std::string> upper;
+  for (int k = 17; k < 48; ++k)
+    if (const std::string name = face::ibug(k);
+        first.rest.contains(name) && face.rest.contains(name))
+      upper.push_back(name);
+  if (upper.size() < kFewest) return;
+  const auto fit = fit_similarity(places_of(face.rest, upper), places_of(first.rest, upper));
+  std::vector<std::string> moved;
+  for (const auto& [name, side] : {std::pair{face::ibug(48), "right"}, {face::ibug(54), "left"}}) {
+    if (!first.rest.contains(name) || !face.rest.contains(name)) continue;
+    const double off_m =
+        rms_distance(fit.apply(places_of(face.rest, {name})), places_of(first.rest, {name}));
+    if (off_m > kElsewhere_m)
+      moved.push_back(fmt::format("the {} one {:.1f} mm", side, 1e3 * off_m));
+  }
+  if (moved.empty()) return;
+  face.remarks.push_back(fmt::format(
+      "{}: corners of the mouth are elsewhere at rest than in {}, relative to brows, eyes and "
+      "nose: "
+      "{}; the face has changed at rest, or one of both recordings begins in an expression, and "
+      "then its movement is measured too small",
+      face.file, first.file, fmt::join(moved, ", ")));
+}
+
 void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFace& face) {
   constexpr double kLargestShare = 0.03;
   if (!first || !have_one_scale(*first, face) ||
@@ -350,6 +381,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   settle_first_way(first, face);
   note_size(first, name, face);
   if (first) note_shape(*first, face);
+  if (first) note_corners_at_rest(*first, face);
   return face;
 }
 

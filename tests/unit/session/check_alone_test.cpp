@@ -82,6 +82,31 @@ TEST(CheckAlone, OnePointOrOnePlaceHasNoSize) {
   EXPECT_EQ(size_warning(m), std::nullopt);
 }
 
+/// The names of a corner of the mouth and of the nostril beside it, or of a lip and an eye.
+TEST(CheckAlone, ExchangedNamesOfOneSideAreAWarning) {
+  const io::Landmarks average = average_face().landmarks;
+  motion::Motion m;
+  m.source = "alone.csv";
+  m.time_s = {0};
+  m.positions = {Points(68, 3)};
+  for (int k = 0; k < 68; ++k) {
+    m.names.push_back(face::ibug(k));
+    m.positions[0].row(k) = average.at(m.names.back()).transpose();
+  }
+  EXPECT_THAT(check_alone(m), IsEmpty());
+  motion::Motion moved = m;
+  moved.positions[0](54, 1) += 0.012;  // people and trackers differ by as much
+  EXPECT_THAT(check_alone(moved), IsEmpty());
+  for (const auto& [a, b] : {std::pair{35, 54}, {51, 36}}) {
+    motion::Motion exchanged = m;
+    std::swap(exchanged.names[std::size_t(a)], exchanged.names[std::size_t(b)]);
+    EXPECT_THAT(check_alone(exchanged),
+                ElementsAre(AllOf(is_warning("recording.point_off"), is_about("motion.file"),
+                                  says("2 points"), says(face::ibug(a)), says(face::ibug(b)),
+                                  says("their names may be exchanged"))));
+  }
+}
+
 TEST(CheckAlone, ExchangedSidesAreRefusedByThePointsOfTheMouth) {
   const motion::Motion right = still_points_of(average_face().landmarks);
   EXPECT_THAT(check_alone(right), IsEmpty());

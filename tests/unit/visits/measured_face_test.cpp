@@ -184,6 +184,25 @@ TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
   EXPECT_THAT(part(40, 90), testing::ElementsAre(HasSubstr("seems to start in an expression")));
 }
 
+/// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
+TEST(MeasuredFace, CornersElsewhereAtRestAreRemarked) {
+  const MeasuredFace first = exact({});
+  const auto remarks = [&](const motion::Motion& whole, std::size_t from, std::size_t to) {
+    motion::Motion m = whole;
+    m.time_s = {whole.time_s.begin() + long(from), whole.time_s.begin() + long(to)};
+    m.positions = {whole.positions.begin() + long(from), whole.positions.begin() + long(to)};
+    return measure(m, visits_of(2), 0.0, &first).remarks;
+  };
+  EXPECT_THAT(
+      remarks(recording_of({}), 36, 60),
+      testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
+                                       HasSubstr("the right one"), HasSubstr("the left one"))));
+  EXPECT_THAT(remarks(recording_of({.right = 0}), 36, 60),
+              testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
+                                               testing::Not(HasSubstr("the right one")))));
+  EXPECT_THAT(remarks(recording_of({}), 0, 60), testing::IsEmpty());
+}
+
 TEST(MeasuredFace, AnotherSizeIsRemarked) {
   const MeasuredFace first = exact({});
   motion::Motion larger = recording_of({});
