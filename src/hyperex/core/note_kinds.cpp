@@ -102,8 +102,8 @@ constexpr NoteKind kKinds[] = {
   warning("recording.point_off", "motion.file",
     "After a fit that wrong points do not pull, a point is more than 8 mm and four times the median "
     "from the scan's landmark of its name, and its neighbours are not. 30 mm hold for points that "
-    "people place differently, and where fewer than 20 points are common. Without a scan (`symmetry`, "
-    "`visits`): 15 mm or more from the average face's place."),
+    "people place differently, and where fewer than 20 points are common. By the recording alone "
+    "(`new`, `symmetry`, `visits`): 15 mm or more from the average face's place."),
   warning("time.beyond_recording", "time.end_s",
     "The run ends more than 1 s after the recording: the face is held as its last sample shows it."),
   warning("sides.doubtful", "motion.file",

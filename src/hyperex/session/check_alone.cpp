@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <utility>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/io/scan.hpp"
@@ -94,14 +96,14 @@ std::optional<Note> size_warning_of(const motion::Motion& sample) {
 std::optional<Note> elsewhere_warning(const motion::Motion& sample) {
   constexpr std::size_t most_named = 3;
   const FaceAtRest average = average_face();
-  std::vector<std::string> named;
-  std::size_t count = 0;
-  for (const auto& [name, off_m] : misplaced_points(sample, average.landmarks).points) {
-    if (off_m < kElsewhere_m || ++count > most_named) continue;
-    named.push_back(fmt::format("{} lies {:.0f} mm off", face::name_in_words(name), 1e3 * off_m));
-  }
+  std::vector<MisplacedPoints::Point> points = misplaced_points(sample, average.landmarks).points;
+  std::erase_if(points, [](const auto& point) { return point.off_m < kElsewhere_m; });
+  const std::size_t count = points.size();
   if (count == 0) return std::nullopt;
-  if (count > most_named) named.push_back(fmt::format("and {} more", count - most_named));
+  std::vector<std::string> named;
+  for (const auto& [name, off_m] : std::span(points).first(std::min(count, most_named)))
+    named.push_back(fmt::format("{} lies {:.0f} mm off", face::name_in_words(name), 1e3 * off_m));
+  add_rest(named, count);
   return make_warning(
       "recording.point_off",
       fmt::format(

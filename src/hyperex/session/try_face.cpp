@@ -63,8 +63,7 @@ std::vector<Note> try_face(const scene::Scene& given, Inputs inputs) {
   checked_cost(given, inputs, Extent::quick, &face.mesh->volume);
   std::vector<Note> notes = face.mesh->notes;
   append(notes, notes_on_tissue(options.field, options.runs));
-  if (auto off = skin_warning(skin_off_scan(*face.mesh, inputs.landmarks)))
-    notes.push_back(*std::move(off));
+  add(notes, skin_warning(skin_off_scan(*face.mesh, inputs.landmarks)));
   return notes;
 }
 

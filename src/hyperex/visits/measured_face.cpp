@@ -131,8 +131,8 @@ double eye_distance(const io::Landmarks& rest) {
 }
 
 /// Those of `names` that both recordings measure.
-std::vector<std::string> common_head_points(const MeasuredFace& a, const MeasuredFace& b,
-                                            const std::vector<std::string>& names) {
+std::vector<std::string> measured_by_both(const MeasuredFace& a, const MeasuredFace& b,
+                                          const std::vector<std::string>& names) {
   std::vector<std::string> common;
   for (const std::string& name : names)
     if (a.rest.contains(name) && b.rest.contains(name)) common.push_back(name);
@@ -166,7 +166,7 @@ std::vector<std::string> head_points(const VisitsFile& visits,
   const bool all_are_landmarks = std::ranges::all_of(
       names, [](const std::string& name) { return face::is_known_landmark(name); });
   if (stated && !all_are_landmarks &&
-      give_axes(places_of(first.rest, common_head_points(first, face, landmarks))))
+      give_axes(places_of(first.rest, measured_by_both(first, face, landmarks))))
     return landmarks;
   return names;
 }
@@ -174,7 +174,7 @@ std::vector<std::string> head_points(const VisitsFile& visits,
 /// The axes of the first recording, carried by the skull to this one.
 void carry_axes(const MeasuredFace& first, const std::vector<std::string>& of_head,
                 const fs::path& recording, MeasuredFace& face) {
-  const std::vector<std::string> common = common_head_points(first, face, of_head);
+  const std::vector<std::string> common = measured_by_both(first, face, of_head);
   const Points there = places_of(first.rest, common), here = places_of(face.rest, common);
   face.state.axes.setConstant(kNan);
   if (!give_axes(there)) {
@@ -309,27 +309,23 @@ void note_shape(const MeasuredFace& first, MeasuredFace& face) {
 void note_corners_at_rest(const MeasuredFace& first, MeasuredFace& face) {
   constexpr double kElsewhere_m = 3e-3;
   constexpr std::size_t kFewest = 12;
-  std::vector<std::string> upper;
-  for (int k = 17; k < 48; ++k)
-    if (const std::string name = face::ibug(k);
-        first.rest.contains(name) && face.rest.contains(name))
-      upper.push_back(name);
+  const auto all = face::all_ibug().begin();
+  const std::vector<std::string> upper = measured_by_both(first, face, {all + 17, all + 48});
   if (upper.size() < kFewest) return;
   const auto fit = fit_similarity(places_of(face.rest, upper), places_of(first.rest, upper));
   std::vector<std::string> moved;
-  for (const auto& [name, side] : {std::pair{face::ibug(48), "right"}, {face::ibug(54), "left"}}) {
-    if (!first.rest.contains(name) || !face.rest.contains(name)) continue;
+  for (const std::string& name : measured_by_both(first, face, {face::ibug(48), face::ibug(54)})) {
     const double off_m =
         rms_distance(fit.apply(places_of(face.rest, {name})), places_of(first.rest, {name}));
     if (off_m > kElsewhere_m)
-      moved.push_back(fmt::format("the {} one {:.1f} mm", side, 1e3 * off_m));
+      moved.push_back(fmt::format("the {} one {:.1f} mm", name == face::ibug(48) ? "right" : "left",
+                                  1e3 * off_m));
   }
   if (moved.empty()) return;
   face.remarks.push_back(fmt::format(
       "{}: corners of the mouth are elsewhere at rest than in {}, relative to brows, eyes and "
-      "nose: "
-      "{}; the face has changed at rest, or one of both recordings begins in an expression, and "
-      "then its movement is measured too small",
+      "nose: {}; the face has changed at rest, or one of both recordings begins in an expression, "
+      "and then its movement is measured too small",
       face.file, first.file, fmt::join(moved, ", ")));
 }
 
@@ -380,8 +376,10 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   settle_axes(first, visits, still_points, name, face);
   settle_first_way(first, face);
   note_size(first, name, face);
-  if (first) note_shape(*first, face);
-  if (first) note_corners_at_rest(*first, face);
+  if (first) {
+    note_shape(*first, face);
+    note_corners_at_rest(*first, face);
+  }
   return face;
 }
 

@@ -249,25 +249,22 @@ INSTANTIATE_TEST_SUITE_P(Of, AgreementOnBounds, testing::ValuesIn(ends()), name_
 
 // ---- what takes long
 
-TEST(CheckOfAFineMesh, SaysThatItMakesNone) {
+std::vector<Note> checked_smallest(const std::vector<std::string>& overrides) {
   const scene::SceneFolder folder;
-  const auto file = folder.write("scene.toml", scene::smallest);
-  const auto notes = [&](const std::vector<std::string>& overrides) {
-    return check(scene::read_scene(file, overrides));
-  };
-  EXPECT_THAT(notes({"mesh.element_size_mm=1"}), Contains(test::is_note("mesh.unchecked")));
-  EXPECT_THAT(notes({}), Not(Contains(test::has_id("mesh.unchecked"))));
+  return check(scene::read_scene(folder.write("scene.toml", scene::smallest), overrides));
+}
+
+TEST(CheckOfAFineMesh, SaysThatItMakesNone) {
+  EXPECT_THAT(checked_smallest({"mesh.element_size_mm=1"}),
+              Contains(test::is_note("mesh.unchecked")));
+  EXPECT_THAT(checked_smallest({}), Not(Contains(test::has_id("mesh.unchecked"))));
 }
 
 /// Not only when it runs.
 TEST(CheckOfACoarseMesh, SaysWhereTheSkinIsOffTheScan) {
-  const scene::SceneFolder folder;
-  const auto file = folder.write("scene.toml", scene::smallest);
-  const auto notes = [&](const std::vector<std::string>& overrides) {
-    return check(scene::read_scene(file, overrides));
-  };
-  EXPECT_THAT(notes({"mesh.element_size_mm=15"}), Contains(test::is_warning("skin.far_from_scan")));
-  EXPECT_THAT(notes({}), Not(Contains(test::has_id("skin.far_from_scan"))));
+  EXPECT_THAT(checked_smallest({"mesh.element_size_mm=15"}),
+              Contains(test::is_warning("skin.far_from_scan")));
+  EXPECT_THAT(checked_smallest({}), Not(Contains(test::has_id("skin.far_from_scan"))));
 }
 
 TEST(CheckOfInputs, MakesNoMesh) {

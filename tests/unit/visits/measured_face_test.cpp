@@ -170,13 +170,17 @@ TEST(MeasuredFace, RemarksNameTheFileWithoutItsFolders) {
     EXPECT_EQ(remark.find("Jane"), std::string::npos) << remark;
 }
 
+/// Its samples from one to before another.
+motion::Motion part_of(const Smile& smile, long from, long to) {
+  motion::Motion m = recording_of(smile);
+  m.time_s = {m.time_s.begin() + from, m.time_s.begin() + to};
+  m.positions = {m.positions.begin() + from, m.positions.begin() + to};
+  return m;
+}
+
 TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
-  const auto part = [](std::size_t from, std::size_t to) {
-    const motion::Motion whole = recording_of({});
-    motion::Motion m = whole;
-    m.time_s = {whole.time_s.begin() + long(from), whole.time_s.begin() + long(to)};
-    m.positions = {whole.positions.begin() + long(from), whole.positions.begin() + long(to)};
-    return measure(m, visits_of(1), 0.0, nullptr).extent_doubts;
+  const auto part = [](long from, long to) {
+    return measure(part_of({}, from, to), visits_of(1), 0.0, nullptr).extent_doubts;
   };
   EXPECT_THAT(part(0, 90), testing::IsEmpty());
   EXPECT_THAT(part(0, 45), testing::IsEmpty()) << "held at its peak";
@@ -187,20 +191,16 @@ TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
 /// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
 TEST(MeasuredFace, CornersElsewhereAtRestAreRemarked) {
   const MeasuredFace first = exact({});
-  const auto remarks = [&](const motion::Motion& whole, std::size_t from, std::size_t to) {
-    motion::Motion m = whole;
-    m.time_s = {whole.time_s.begin() + long(from), whole.time_s.begin() + long(to)};
-    m.positions = {whole.positions.begin() + long(from), whole.positions.begin() + long(to)};
-    return measure(m, visits_of(2), 0.0, &first).remarks;
+  const auto remarks = [&](const Smile& smile, long from, long to) {
+    return measure(part_of(smile, from, to), visits_of(2), 0.0, &first).remarks;
   };
-  EXPECT_THAT(
-      remarks(recording_of({}), 36, 60),
-      testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
+  EXPECT_THAT(remarks({}, 36, 60), testing::Contains(testing::AllOf(
+                                       HasSubstr("corners of the mouth are elsewhere"),
                                        HasSubstr("the right one"), HasSubstr("the left one"))));
-  EXPECT_THAT(remarks(recording_of({.right = 0}), 36, 60),
+  EXPECT_THAT(remarks({.right = 0}, 36, 60),
               testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
                                                testing::Not(HasSubstr("the right one")))));
-  EXPECT_THAT(remarks(recording_of({}), 0, 60), testing::IsEmpty());
+  EXPECT_THAT(remarks({}, 0, 60), testing::IsEmpty());
 }
 
 TEST(MeasuredFace, AnotherSizeIsRemarked) {

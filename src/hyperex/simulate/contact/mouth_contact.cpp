@@ -12,8 +12,8 @@ namespace {
 
 using Eigen::Index;
 constexpr double kSettled_m = 10e-6;  // by which pairs may pass when the search ends
-constexpr double kWithin_m =
-    1.5e-4;  // pairs with a smaller gap may come into contact within a round
+/// Pairs with a smaller gap may come into contact within a round.
+constexpr double kWithin_m = 1.5e-4;
 constexpr int kMostRounds = 12, kMostSweeps = 1000;
 /// From this round on, faces of an obstacle that were nearest in earlier rounds are constraints
 /// too.
