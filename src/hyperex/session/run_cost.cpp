@@ -212,7 +212,7 @@ std::optional<RunCost> expected_cost(const scene::Scene& scene, const Inputs& in
   RunCost cost;
   cost.nodes = mesh.nodes;
   cost.guessed = !volume && inputs.landmarks.empty();
-  cost.frames = std::max(1.0, std::ceil(end_s * scene.time.frame_rate_hz - 1e-6));
+  cost.frames = simulate::frame_count(scene.time, end_s);
   cost.variants = double(scene.variants.size());
   cost.from_s = scene.motion.start_s;
   const double last_frame_s = (cost.frames - 1) / scene.time.frame_rate_hz,

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "hyperex/core/assert.hpp"
@@ -131,6 +132,11 @@ void check(const SimulationOptions& o) {
                              "at most twice newmark_beta"));
   if (o.model.strain == Strain::finite) check_finite(o, problems);
   if (!problems.empty()) throw InputError(problems);
+}
+
+int frame_count(const TimeOptions& time, double end_s) {
+  constexpr double rounding = 1e-6;  // of a frame: 0.1 s at 30 Hz ends with its fourth frame
+  return 1 + static_cast<int>(std::floor(std::max(0.0, end_s) * time.frame_rate_hz + rounding));
 }
 
 }  // namespace hyperex::simulate

@@ -522,8 +522,8 @@ struct TimeOptions {
              {.unit = kSeconds, .bounds = {0, 600}});
     v.option(
         HX_MEMBER(frame_rate_hz),
-        "Frames written per second, from 0 on and before the end: a run of 1 s at 30 Hz has 30, "
-        "the last at 0.967 s. They need not coincide with time steps.",
+        "Frames written per second, from 0 to the end: a run of 1 s at 30 Hz has 31, the last at "
+        "1 s. They need not coincide with time steps.",
         {.unit = kHertz, .bounds = {1, 1000}});
     v.option(HX_MEMBER(peak_time_s),
              "Time of skin_peak.ply. Below 0: when the mean displacement of the driven points is "
@@ -535,6 +535,10 @@ struct TimeOptions {
              {.unit = kSeconds, .bounds = {0, 600}, .key = "output.picture_times_s", .most = 12});
   }
 };
+
+/// How many frames a run of `end_s` has: at 0, 1 / frame_rate_hz, 2 / frame_rate_hz, ... up to and
+/// with its end, so that the last sample of a recording is written too. At least 1.
+int frame_count(const TimeOptions& time, double end_s);
 
 /// The input at all steps is kept: more would fill the memory.
 inline constexpr double kMostSteps = 2e6;

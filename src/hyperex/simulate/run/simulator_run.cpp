@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "hyperex/core/stopwatch.hpp"
@@ -17,10 +16,10 @@ namespace {
 std::vector<FrameTime> frame_times_of(const TimeOptions& time, double end_s,
                                       std::vector<double>& frame_time_s) {
   std::vector<FrameTime> out;
-  const int frames = std::max(1, static_cast<int>(std::ceil(end_s * time.frame_rate_hz - 1e-6)));
+  const int frames = frame_count(time, end_s);
   for (int f = 0; f < frames; ++f) {
     frame_time_s.push_back(f / time.frame_rate_hz);
-    out.push_back({frame_time_s.back(), f});
+    out.push_back({std::min(frame_time_s.back(), end_s), f});
   }
   for (std::size_t i = 0; i < time.still_times_s.size(); ++i)
     out.push_back({std::min(time.still_times_s[i], end_s), -1 - static_cast<int>(i)});
