@@ -162,8 +162,8 @@ void bind_excursions(py::module_& m) {
 
 void bind_symmetry(py::module_& m) {
   py::class_<SymmetryCurve>(m, "SymmetryCurve",
-                            "S(t) = ln |xi_L - xi_R|; smaller is more alike. It compares how both "
-                            "sides stretch, not how far they move in mm.")
+                            "S(t) = ln |xi_L - xi_R|; smaller: both sides stretch more alike. It "
+                            "does not say how far they move in mm, and grades no palsy.")
       .def_property_readonly("time_s",
                              [](const SymmetryCurve& self) { return array_of(self.time_s); })
       .def_property_readonly(

@@ -18,6 +18,7 @@
 #include "hyperex/run/corner_words.hpp"
 #include "hyperex/run/expected_error_words.hpp"
 #include "hyperex/run/run_scene.hpp"
+#include "hyperex/run/setting_words.hpp"
 #include "hyperex/run/surgery.hpp"
 
 namespace hyperex::cli {
@@ -78,14 +79,14 @@ void run(const RunOptions& options) {
   std::cout << fmt::format(
       "{} frames, {} steps, largest displacement {:.1f} mm, lips at most {:.1f} mm apart, {:.1f} s "
       "in all\n"
-      "{}{}{}{}{}{}{}{}"
+      "{}{}{}{}{}{}{}{}{}"
       "written to {}:\n",
       summary["frames"].get<int>(), summary["steps"].get<int>(),
       summary["max_displacement_mm"].get<double>(), summary["lip_opening_mm"].get<double>(),
-      summary["seconds"]["total"].get<double>(), solver_line(summary), run::corners_line(summary),
-      run::rescaled_line(summary), run::variant_lines(summary), run::surgery_lines(summary),
-      run::expected_error_line(summary), run::activations_line(summary), budget_lines(summary),
-      printable(options.out->string()));
+      summary["seconds"]["total"].get<double>(), solver_line(summary), run::contact_line(summary),
+      run::corners_line(summary), run::rescaled_line(summary), run::variant_lines(summary),
+      run::surgery_lines(summary), run::expected_error_line(summary),
+      run::activations_line(summary), budget_lines(summary), printable(options.out->string()));
   const std::pair<const char*, std::string> files[] = {
       {"report.html", "open it in a browser"},
       {"contact_sheet.png", "the face at a glance"},

@@ -83,8 +83,8 @@ void draw_curves_of(render::Canvas& canvas, const metrics::SymmetryCurve& curve)
   const render::TimePlot upper{
       70, 90, 800, 230, time, render::span_of(sides), "xi, relative change of length"};
   const std::string label = fmt::format(
-      "S = ln |xi_L - xi_R|, not below {:.2f}; smaller is more "
-      "symmetric",
+      "S = ln |xi_L - xi_R|, not below {:.2f}; smaller: both sides "
+      "stretch more alike",
       std::log(curve.floor));
   const render::TimePlot lower{70, 380, 800, 230, time, render::span_of(s), label};
   render::draw_axes(canvas, upper);

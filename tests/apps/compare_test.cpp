@@ -288,7 +288,8 @@ TEST_F(Program, SymmetryPrintsWhatIsReadFirst) {
   ASSERT_EQ(found.status, 0) << found.err;
   std::size_t before = 0;
   for (const char* words :
-       {"\nS compares how much ", "does not say which face moves more evenly in mm", "\npoint ",
+       {"\nS compares how much ", "does not say which face moves more evenly in mm",
+        "grades no palsy: the excursions say which side moves less", "\npoint ",
         "\ncorner of the mouth", "eyelid", "\nouter end of the brow", "\noutline of the jaw 1",
         "\nhead's pose: uncertain by up to "}) {
     const std::size_t at = found.out.find(words);

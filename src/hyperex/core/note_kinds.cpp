@@ -142,7 +142,7 @@ constexpr NoteKind kKinds[] = {
     "Tissue or support was changed after a run whose forces were not held: other forces were found."),
   warning("drive.points_off", "drive.points",
     "A driven point ends more than 0.1 mm from where it is driven, and farther than the recording's "
-    "jitter moves it. The cause is named where one can be established."),
+    "jitter moves it. The cause is named, or what is likely where none can be established."),
   warning("contact.no_equilibrium", "contact",
     "At finite strain no equilibrium with contact was found in some frames."),
   warning("solver.reduced_not_converged", "solver.method",
@@ -266,6 +266,9 @@ constexpr NoteKind kKinds[] = {
   note("drive.points_off_by_jitter", "drive.points",
     "Driven points end more than 0.1 mm from where they are driven, but no farther than the "
     "recording's jitter moves them."),
+  note("drive.points_off_by_gain", "muscles.gain",
+    "Driven points end more than 0.1 mm from where they are driven, as a gain of muscles changes "
+    "the forces: a result, no fault."),
   note("tissue.few_inverted", "",
     "At most 0.1 % of the tetrahedra are turned inside out in some frame: too few to matter."),
   note("tissue.large_strain", "tissue.strain",

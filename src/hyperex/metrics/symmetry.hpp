@@ -15,17 +15,19 @@ namespace hyperex::metrics {
 using Stretches = std::array<double, 8>;
 
 /// What S(t) compares and what it does not say, in two lines of a picture: two faces may be ordered
-/// otherwise by S than by how far their sides move.
+/// otherwise by S than by how far their sides move, as a partial and a complete palsy may be.
 inline constexpr std::array<const char*, 2> kWhatSCompares = {
     "S compares how much the distances from each corner of the mouth to eye, lid, nose and lip "
     "stretch;",
-    "it does not say which face moves more evenly in mm: the excursions of both sides do."};
+    "it does not say which face moves more evenly in mm and grades no palsy: the excursions say "
+    "which side moves less."};
 
 /// Symmetry of a motion after Trotman et al. With r_k,side(t) the distances from cheilion to
 /// exocanthion, palpebrale_inferius, alare and crista_philtri_inferior of one side,
 ///   xi_side(t) = sum_k (r_k,side(t) / r_k,side(t0) - 1),  S(t) = ln |xi_L(t) - xi_R(t)|.
-/// A smaller S means more symmetric. S is limited below by ln(floor), because perfect symmetry
-/// would give minus infinity.
+/// A smaller S means that both sides stretch more alike in sum, not that they go more equally far.
+/// It is negative where the sums differ by less than 1. S is limited below by ln(floor), because
+/// equal sums would give minus infinity.
 struct SymmetryCurve {
   std::vector<double> time_s;
   std::vector<double> xi_left, xi_right;  ///< dimensionless (relative change of length, summed)

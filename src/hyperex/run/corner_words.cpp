@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include "hyperex/core/held_against.hpp"
 #include "hyperex/metrics/symmetry_json.hpp"
@@ -91,15 +93,14 @@ std::string moved_words(double mm, const std::string& size, bool weaker) {
   return fmt::format("{} {} mm farther", weaker ? "is dragged" : "moves", size);
 }
 
-/// Where the greatest excursions differ by much less than the paths do: ", but along the way up to
-/// 3.7 mm from where it is without the change, at 1.93 s". The greatest excursions may belong to
-/// two different expressions of the recording.
-std::string path_clause(const CornerChange& c, double by_mm) {
+/// Where the greatest excursions differ by much less than the paths do: "at 1.93 s it is 3.7 mm
+/// from where it is without the change". The greatest excursions may belong to two different
+/// expressions of the recording.
+std::string path_words(const CornerChange& c, double by_mm) {
   const double least = std::fmax(0.3, std::isnan(c.twin_band_mm) ? 0 : c.twin_band_mm);
   if (!(c.far_mm > least) || c.far_mm < 1.5 * std::abs(by_mm)) return "";
-  return fmt::format(
-      ", but along the way up to {:.1f} mm from where it is without the change, at {:.2f} s",
-      c.far_mm, c.far_s);
+  return fmt::format("at {:.2f} s it is {:.1f} mm from where it is without the change", c.far_s,
+                     c.far_mm);
 }
 
 /// Whether the change of the distance from rest is within its band.
@@ -122,29 +123,31 @@ std::string along_words(const CornerChange& c) {
 }
 
 /// Where the corner turns aside, its distance from rest hides how much less it goes where it went:
-/// ", in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8)".
-std::string direction_clause(const CornerChange& c) {
+/// "in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8)".
+std::string direction_words(const CornerChange& c) {
   if (std::isnan(c.along_mm)) return "";
   const bool same_way = std::abs(c.to_mm - c.along_mm) <= std::max(0.25, 0.1 * c.to_mm);
   if (same_way) return "";
   const double from = printed_mm(c.from_mm), along = printed_mm(c.along_mm);
   if (along < 0)
-    return fmt::format(", {:.1f} mm against the unchanged direction, {}", -along, along_words(c));
-  return fmt::format(", in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along,
+    return fmt::format("{:.1f} mm against the unchanged direction, {}", -along, along_words(c));
+  return fmt::format("in the unchanged direction {:.1f} to {:.1f} mm, {}", from, along,
                      along_words(c));
 }
 
-/// The change of the distance from rest with its own band, then what that distance hides.
+/// What the distance from rest hides, one thing at most; empty where it hides nothing.
+std::string hidden_words(const CornerChange& c) {
+  const std::string aside = direction_words(c);
+  return aside.empty() ? path_words(c, printed_change_mm(c.from_mm, c.to_mm)) : aside;
+}
+
+/// The change of the distance from rest with its own band.
 std::string change_words(const CornerChange& c) {
   const double from = printed_mm(c.from_mm), to = printed_mm(c.to_mm);
   const double by = printed_change_mm(c.from_mm, c.to_mm), exact = c.to_mm - c.from_mm;
-  const std::string aside = direction_clause(c),
-                    on_the_way = aside.empty() ? path_clause(c, by) : "",
-                    hidden = aside + on_the_way,
-                    farthest = on_the_way.empty() ? "" : " at its farthest";
   if (std::abs(by) < kSame_mm)
-    return fmt::format("{:.1f} mm, {}", from, aside.empty() ? "unchanged" : "as far as before") +
-           farthest + hidden;
+    return fmt::format("{:.1f} mm, {}", from,
+                       hidden_words(c).empty() ? "unchanged" : "as far as before");
   const bool known = !std::isnan(c.band_mm);
   const HeldAgainst held = held_against(by, exact, known ? c.band_mm : 0);
   const std::string way = fmt::format("{:.1f} to {:.1f} mm, ", from, to),
@@ -153,11 +156,10 @@ std::string change_words(const CornerChange& c) {
                                ? fmt::format(" ({})", budget_band(c.jitter_known, held.limit))
                                : fmt::format(" (+- {})", held.limit);
   if (is_undecided(c))
-    return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + farthest +
-           band + hidden;
+    return way + fmt::format("undecided: {} mm {}", held.own, by < 0 ? "less" : "more") + band;
   const std::string cannot_tell =
       c.jitter_known ? "" : " (cannot tell: the recording's jitter is not known)";
-  return way + moved_words(by, held.own, c.weaker) + farthest + band + cannot_tell + hidden;
+  return way + moved_words(by, held.own, c.weaker) + band + cannot_tell;
 }
 
 /// Where the jaw alone would carry the corner, two sentences; empty where it does not move, or is
@@ -198,7 +200,9 @@ bool is_recorded(const Json& corners, const std::string& side) {
   return !corners.contains("recorded") || corners["recorded"].value(side, true);
 }
 
-std::string side_words(const Json& summary, const Json& variant, const std::string& side) {
+/// None where a distance from rest is not known.
+std::optional<CornerChange> corner_change(const Json& summary, const Json& variant,
+                                          const std::string& side) {
   const Json& base = summary["variants"]["table"][0];
   const double unknown = std::nan("");
   const std::string corner = "commissure_" + side;
@@ -220,7 +224,42 @@ std::string side_words(const Json& summary, const Json& variant, const std::stri
                  number(variant, "_from_base_s"),
                  std::find(weaker.begin(), weaker.end(), Json(side)) != weaker.end()};
   take_budget(budgeted(summary, "change", variant.value("name", ""), side), c);
-  return std::isnan(c.from_mm) || std::isnan(c.to_mm) ? "not known" : change_words(c);
+  if (std::isnan(c.from_mm) || std::isnan(c.to_mm)) return std::nullopt;
+  return c;
+}
+
+/// One line for a variant, and one for each corner whose distance from rest hides something.
+std::string corner_lines_of(const Json& summary, const Json& variant) {
+  const Json corners = summary.value(Json::json_pointer("/symmetry/commissure"), Json::object());
+  std::string changes, hidden;
+  for (const auto& [side, name] : {std::pair{"R", "right"}, std::pair{"L", "left"}}) {
+    const bool recorded = is_recorded(corners, side);
+    const auto change = recorded ? corner_change(summary, variant, side) : std::nullopt;
+    changes += fmt::format("{}{} {}", changes.empty() ? "" : "; ", name,
+                           change     ? change_words(*change)
+                           : recorded ? "not known"
+                                      : "not recorded");
+    if (const std::string words = change ? hidden_words(*change) : ""; !words.empty())
+      hidden += fmt::format("    {} corner: {}\n", name, words);
+  }
+  return fmt::format("  {}: corner of the mouth {}\n{}", variant["name"].get<std::string>(),
+                     changes, hidden);
+}
+
+/// What the figures are, which one to quote, and what the bands hold.
+std::string legend_lines(bool aside, bool budget) {
+  return std::string(
+             "  (quote the excursions, in the first line of each variant: each corner's greatest "
+             "distance from rest)\n"
+             "  (R and L are the subject's own sides; +-: ") +
+         (budget ? "what all errors of the error budget together could make of the change before "
+                   "it)\n"
+                 : "what one other mesh and 95 % of the recording's jitter could make of the "
+                   "change before it; --error-budget states all that could)\n") +
+         (aside ? std::string("  (the unchanged direction: where the corner goes without the "
+                              "change; motion aside of it counts in the excursion, not in it") +
+                      (budget ? "; the error budget has no interval for it)\n" : ")\n")
+                : "");
 }
 
 std::string words_of_corner(const Json& corners, const std::string& side) {
@@ -269,29 +308,11 @@ std::string variant_lines(const Json& summary) {
   std::string lines;
   if (!summary.contains("variants")) return lines;
   const auto& table = summary["variants"]["table"];
-  const Json corners = summary.value(Json::json_pointer("/symmetry/commissure"), Json::object());
-  const auto words = [&](const Json& variant, const char* side) {
-    return is_recorded(corners, side) ? side_words(summary, variant, side) : "not recorded";
-  };
-  for (std::size_t i = 1; i < table.size(); ++i) {
-    lines += fmt::format("  {}: corner of the mouth right {}; left {}\n",
-                         table[i]["name"].get<std::string>(), words(table[i], "R"),
-                         words(table[i], "L"));
-    lines += unpulled_lines(table[i]);
-  }
+  for (std::size_t i = 1; i < table.size(); ++i)
+    lines += corner_lines_of(summary, table[i]) + unpulled_lines(table[i]);
   if (lines.empty()) return lines;
-  const bool aside = lines.find("unchanged direction") != std::string::npos,
-             budget = summary.contains("error_budget");
-  return lines +
-         "  (each corner's greatest distance from rest; R and L are the subject's own sides; +-: " +
-         (budget ? "what all errors of the error budget together could make of the change before "
-                   "it)\n"
-                 : "what one other mesh and 95 % of the recording's jitter could make of the "
-                   "change before it; --error-budget states all that could)\n") +
-         (aside ? std::string("  (the unchanged direction: where the corner goes without the "
-                              "change; motion aside of it counts in the distance, not in it") +
-                      (budget ? "; the error budget has no interval for it)\n" : ")\n")
-                : "");
+  const bool aside = lines.find("unchanged direction") != std::string::npos;
+  return lines + legend_lines(aside, summary.contains("error_budget"));
 }
 
 }  // namespace hyperex::run

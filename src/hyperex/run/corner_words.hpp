@@ -25,14 +25,16 @@ std::string rescaled_line(const nlohmann::ordered_json& summary);
 
 /// The effect of each variant on the corners of the mouth, one line per variant: "  weak right:
 /// corner of the mouth right 9.6 to 6.2 mm, moves 3.4 mm less (+- 0.3); left 10.1 mm, unchanged".
-/// Compared are greatest distances from rest, as in variants_excursions.csv, with their band. A
-/// corner that turns aside has a second clause with its component in the unchanged direction, that
-/// of its displacement in base: ", in the unchanged direction 9.6 to 4.1 mm, 5.5 mm less (+- 0.4)",
-/// with the band of that change. Where greatest distances hide a larger effect: "moves 0.4 mm less
-/// at its farthest (+- 0.2), but along the way up to 6.6 mm from where it is without the change, at
-/// 3.63 s". Where the summary has an error budget, its interval stands in
-/// place of the band, "(95 %: +- 2.9)", and the change in the unchanged direction has none. A line
-/// of its own says why a corner still moves where a variant lets no muscle of its side pull.
+/// Compared are greatest distances from rest, as in variants_excursions.csv, with their band. The
+/// last lines say that these are the ones to quote. What they hide has a line of its own:
+///   * of a corner that turns aside, its component in the unchanged direction, that of its
+///     displacement in base, with the band of that change: "right corner: in the unchanged
+///     direction 9.6 to 4.1 mm, 5.5 mm less (+- 0.4)";
+///   * a larger effect at another time: "left corner: at 3.63 s it is 6.6 mm from where it is
+///     without the change";
+///   * why a corner still moves where a variant lets no muscle of its side pull.
+/// Where the summary has an error budget, its interval stands in place of the band,
+/// "(95 %: +- 2.9)", and the change in the unchanged direction has none.
 std::string variant_lines(const nlohmann::ordered_json& summary);
 
 }  // namespace hyperex::run

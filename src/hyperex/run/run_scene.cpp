@@ -15,6 +15,7 @@
 #include "hyperex/run/earlier_run.hpp"
 #include "hyperex/run/outputs.hpp"
 #include "hyperex/run/report_page.hpp"
+#include "hyperex/run/setting_words.hpp"
 #include "hyperex/run/summary.hpp"
 #include "hyperex/run/variants.hpp"
 #include "hyperex/scene/file_names.hpp"
@@ -151,8 +152,9 @@ Json run_scene(const scene::Scene& scene, const std::filesystem::path& directory
   announce_replacing(out, directory, !scene.variants.empty());
   try {
     Stopwatch total;
-    // Meshing alone takes minutes where elements are small, so the cost is stated before it.
+    // Meshing alone takes minutes where elements are small, so settings and cost are stated before.
     const auto state_cost = [&](const session::Inputs& inputs) {
+      for (const std::string& line : setting_lines(scene)) spdlog::info("{}", line);
       if (const auto cost = session::checked_cost(scene, inputs, session::Extent::full))
         spdlog::info("{}", session::sentence_of(*cost));
     };

@@ -210,7 +210,7 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
                                260,
                                time,
                                render::span_of(s_curves),
-                               "S = ln |xi_L - xi_R|; smaller is more symmetric"};
+                               "S = ln |xi_L - xi_R|; smaller: both sides stretch more alike"};
   render::draw_axes(canvas, upper);
   if (!floor.empty()) render::shade_under(canvas, upper, own.time_s, floor);
   render::draw_curves(canvas, upper, own.time_s, s_curves);

@@ -73,17 +73,19 @@ TEST(CornerWords, AWeakCornerMovesLessAndOneInStiffTissueFollowsLess) {
 TEST(CornerWords, ACornerThatTurnsAsideHasASecondFigureInTheUnchangedDirection) {
   EXPECT_THAT(
       variant_lines(summary_of({10.12, 6.68, 4.24, 0.69}, same, {"R"})),
-      AllOf(HasSubstr("right 10.1 to 6.7 mm, moves 3.4 mm less (+- 0.7), in the unchanged "
-                      "direction 10.1 to 4.2 mm, 5.9 mm less; left"),
+      AllOf(HasSubstr("right 10.1 to 6.7 mm, moves 3.4 mm less (+- 0.7); left 6.7 mm, "
+                      "unchanged\n    right corner: in the unchanged direction 10.1 to 4.2 mm, 5.9 "
+                      "mm less\n"),
             HasSubstr("(the unchanged direction: where the corner goes without the change;")));
   EXPECT_THAT(variant_lines(summary_of({6.0, 6.4, 3.9}, same, {"R"})),
-              HasSubstr("right 6.0 to 6.4 mm, is dragged 0.4 mm farther (+- 0.3), in the unchanged "
-                        "direction 6.0 to 3.9 mm, 2.1 mm less"));
+              AllOf(HasSubstr("right 6.0 to 6.4 mm, is dragged 0.4 mm farther (+- 0.3); left"),
+                    HasSubstr("corner: in the unchanged direction 6.0 to 3.9 mm, 2.1 mm less\n")));
   EXPECT_THAT(variant_lines(summary_of({6.0, 5.9, -5.2}, same, {"R"})),
-              HasSubstr("undecided: 0.1 mm less (+- 0.3), 5.2 mm against the unchanged direction"));
+              AllOf(HasSubstr("undecided: 0.1 mm less (+- 0.3); left"),
+                    HasSubstr("right corner: 5.2 mm against the unchanged direction")));
   EXPECT_THAT(variant_lines(summary_of({6.0, 6.02, 3.9}, same, {"R"})),
-              HasSubstr("right 6.0 mm, as far as before, in the unchanged direction 6.0 to 3.9 mm, "
-                        "2.1 mm less"));
+              AllOf(HasSubstr("right 6.0 mm, as far as before; left"),
+                    HasSubstr("corner: in the unchanged direction 6.0 to 3.9 mm, 2.1 mm less\n")));
   EXPECT_THAT(variant_lines(summary_of({9.6, 6.2, 6.15}, same, {"R"})),
               Not(HasSubstr("unchanged direction")));
 }
@@ -100,20 +102,19 @@ Json with_along_band(double along_mm, const Json& band_mm, const Json& decided) 
 TEST(CornerWords, TheFigureInTheUnchangedDirectionHasABandOfItsOwn) {
   EXPECT_THAT(
       variant_lines(with_along_band(4.24, 0.82, 1)),
-      HasSubstr("(+- 0.7), in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8); "
-                "left"));
+      HasSubstr("corner: in the unchanged direction 10.1 to 4.2 mm, 5.9 mm less (+- 0.8)\n"));
   EXPECT_THAT(variant_lines(with_along_band(-2.1, 0.82, 1)),
-              HasSubstr(", 2.1 mm against the unchanged direction, 12.2 mm less (+- 0.8); left"));
+              HasSubstr(": 2.1 mm against the unchanged direction, 12.2 mm less (+- 0.8)\n"));
   EXPECT_THAT(variant_lines(with_along_band(9.7, 0.82, 0)),
-              HasSubstr("10.1 to 9.7 mm, undecided: 0.4 mm less (+- 0.8); left"));
+              HasSubstr("10.1 to 9.7 mm, undecided: 0.4 mm less (+- 0.8)\n"));
 }
 
 TEST(CornerWords, TheFigureInTheUnchangedDirectionIsNotDecidedWhereTheJitterIsNotKnown) {
   Json summary = with_along_band(4.24, nullptr, nullptr);
   summary["variants"]["table"][1]["jitter_known"] = false;
-  EXPECT_THAT(variant_lines(summary), HasSubstr("5.9 mm less (cannot tell); left"));
+  EXPECT_THAT(variant_lines(summary), HasSubstr("5.9 mm less (cannot tell)\n"));
   summary["variants"]["table"][1]["commissure_R_along_base_decided"] = 0;
-  EXPECT_THAT(variant_lines(summary), HasSubstr("undecided: 5.9 mm less; left"));
+  EXPECT_THAT(variant_lines(summary), HasSubstr("undecided: 5.9 mm less\n"));
 }
 
 TEST(CornerWords, SaysOneSecondFigureAtMost) {
@@ -122,9 +123,9 @@ TEST(CornerWords, SaysOneSecondFigureAtMost) {
   changed["commissure_R_from_base_mm"] = 4.6;
   changed["commissure_R_from_base_s"] = 1.2;
   EXPECT_THAT(variant_lines(summary),
-              AllOf(HasSubstr("right 9.7 to 7.5 mm, moves 2.2 mm less (+- 1.0), in the unchanged "
-                              "direction 9.7 to 6.7 mm, 3.0 mm less; left"),
-                    Not(HasSubstr("along the way")), Not(HasSubstr("at its farthest"))));
+              AllOf(HasSubstr("right 9.7 to 7.5 mm, moves 2.2 mm less (+- 1.0); left"),
+                    HasSubstr("corner: in the unchanged direction 9.7 to 6.7 mm, 3.0 mm less\n"),
+                    Not(HasSubstr("at 1.20 s"))));
 }
 
 TEST(CornerWords, WhatStillMovesASideThatNoMusclePulls) {
@@ -168,15 +169,23 @@ TEST(CornerWords, APathThatDiffersIsSaidWithTheTimeAndNoOtherPlace) {
     return variant_lines(summary);
   };
   const std::string on_the_way =
-      ", but along the way up to 6.6 mm from where it is without the change, at 3.63 s\n";
-  EXPECT_THAT(
-      words({16.4, 16.0, 16.0, 0.2}),
-      HasSubstr("left 16.4 to 16.0 mm, moves 0.4 mm less at its farthest (+- 0.2)" + on_the_way));
-  EXPECT_THAT(words({9.98, 10.1, 10.1, 0.05}),
-              HasSubstr("0.12 mm farther at its farthest (+- 0.05)" + on_the_way));
+      "\n    left corner: at 3.63 s it is 6.6 mm from where it is without the change\n";
+  EXPECT_THAT(words({16.4, 16.0, 16.0, 0.2}),
+              HasSubstr("left 16.4 to 16.0 mm, moves 0.4 mm less (+- 0.2)" + on_the_way));
+  EXPECT_THAT(words({9.98, 10.1, 10.1, 0.05}), HasSubstr("0.12 mm farther (+- 0.05)" + on_the_way));
   EXPECT_THAT(words({16.4, 16.0, 16.0, 0.5}),
-              HasSubstr("undecided: 0.4 mm less at its farthest (+- 0.5)" + on_the_way));
-  EXPECT_THAT(words(same), HasSubstr("left 6.7 mm, unchanged at its farthest" + on_the_way));
+              HasSubstr("undecided: 0.4 mm less (+- 0.5)" + on_the_way));
+  EXPECT_THAT(words(same), HasSubstr("left 6.7 mm, as far as before" + on_the_way));
+}
+
+TEST(CornerWords, SaysWhichFigureToQuoteAfterAllVariants) {
+  Json summary = summary_of({10.12, 6.68, 4.24, 0.69}, {9.7, 8.1, 8.1}, {"R"});
+  summary["variants"]["table"].push_back(summary["variants"]["table"][1]);
+  const std::string lines = variant_lines(summary);
+  const std::size_t quote = lines.find("(quote the excursions, in the first line of each variant");
+  ASSERT_NE(quote, std::string::npos) << lines;
+  EXPECT_GT(quote, lines.rfind("right corner: in the unchanged direction"));
+  EXPECT_EQ(lines.find("quote", quote + 10), std::string::npos) << "once";
 }
 
 /// The corners' figures of an error budget: the left one's change and the difference of both.
@@ -219,8 +228,8 @@ TEST(CornerWords, TheErrorBudgetHasNoIntervalInTheUnchangedDirection) {
   EXPECT_THAT(variant_lines(summary), HasSubstr("10.1 to 3.7 mm, 6.4 mm less (+- 0.8)\n"));
   summary["error_budget"] = budget_with(2.868, 2.868, true);
   EXPECT_THAT(variant_lines(summary),
-              AllOf(HasSubstr("(95 %: +- 2.9), in the unchanged direction 10.1 to 3.7 mm, 6.4 mm "
-                              "less\n"),
+              AllOf(HasSubstr("(95 %: +- 2.9)\n    left corner: in the unchanged direction 10.1 to "
+                              "3.7 mm, 6.4 mm less\n"),
                     HasSubstr("not in it; the error budget has no interval for it)")));
 }
 

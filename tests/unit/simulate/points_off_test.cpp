@@ -37,10 +37,45 @@ SimulationOptions driven_by(DriveBy by) {
 
 TEST(ReasonOff, IsNotGivenWhereNoneCanBeEstablished) {
   EXPECT_EQ(reason_of(unexplained(), driven_by(DriveBy::displacement), false), "");
-  EXPECT_EQ(reason_of(unexplained(), driven_by(DriveBy::muscles), true), "") << "contact moves it";
+  EXPECT_EQ(reason_of(unexplained(), driven_by(DriveBy::displacement), true), "");
   SimulationOptions measured = driven_by(DriveBy::muscles);
   measured.region.measured = Measured::all;
   EXPECT_EQ(reason_of(unexplained(), measured, false), "") << "no forces act";
+}
+
+TEST(ReasonOff, IsLikelyWhereNoneCanBeEstablished) {
+  EXPECT_THAT(likely_reason(true), HasSubstr("contact acted"));
+  EXPECT_THAT(likely_reason(false), AllOf(HasSubstr("no one cause"), HasSubstr("time.step_s")));
+}
+
+TEST(ReasonOff, IsThatOfForcesWhereContactActsToo) {
+  EXPECT_THAT(reason_of(unexplained(), driven_by(DriveBy::muscles), true),
+              AllOf(HasSubstr("drive.by = \"muscles\""), HasSubstr("Contact moves points too")));
+  EXPECT_THAT(reason_of(unexplained(), driven_by(DriveBy::muscles), false),
+              Not(HasSubstr("Contact")));
+}
+
+TEST(ReasonOff, IsAResultWhereAGainWasAskedFor) {
+  SimulationOptions weaker = driven_by(DriveBy::muscles);
+  EXPECT_FALSE(is_asked_for(unexplained(), weaker));
+  weaker.muscles.gains = {{"side_L", 0.6}};
+  EXPECT_TRUE(is_asked_for(unexplained(), weaker));
+  for (const bool touched : {false, true})
+    EXPECT_THAT(reason_of(unexplained(), weaker, touched),
+                AllOf(HasSubstr("muscles.gain"), HasSubstr("a result and no fault")));
+  FarthestPoint off_the_mesh = unexplained();
+  off_the_mesh.from_mesh_m = 0.0436;
+  EXPECT_FALSE(is_asked_for(off_the_mesh, weaker)) << "no gain explains it";
+  weaker.drive.by = DriveBy::displacement;
+  EXPECT_FALSE(is_asked_for(unexplained(), weaker)) << "no muscle drives it";
+  weaker.drive.by = DriveBy::reactions;
+  EXPECT_FALSE(is_asked_for(unexplained(), weaker)) << "its forces belong to no muscle";
+  EXPECT_THAT(reason_of(unexplained(), weaker, false), HasSubstr("drive.by = \"reactions\""));
+  weaker = driven_by(DriveBy::muscles);
+  weaker.muscles.gains = {{"side_L", 1}};
+  EXPECT_FALSE(is_asked_for(unexplained(), weaker)) << "it changes nothing";
+  weaker.muscles.mirrored = true;
+  EXPECT_THAT(reason_of(unexplained(), weaker, false), HasSubstr("muscles.mirrored changes"));
 }
 
 TEST(ReasonOff, IsAStepThatIsTooLongForTheMotion) {
@@ -221,6 +256,11 @@ TEST_F(FarthestPointOfAFace, IsExplainedInTheNoteOfARun) {
   EXPECT_THAT(
       Simulator(mesh, landmarks_, opening, options).run().report.notes,
       Contains(AllOf(is_warning("drive.points_off"), says("; with drive.by = \"muscles\""))));
+  options.muscles.gains = {{"side_L", 0.5}};
+  EXPECT_THAT(
+      Simulator(mesh, landmarks_, opening, options).run().report.notes,
+      AllOf(Contains(AllOf(is_note("drive.points_off_by_gain"), says("a result and no fault"))),
+            Not(Contains(is_warning("drive.points_off")))));
 }
 
 }  // namespace

@@ -225,7 +225,8 @@ export function directionWords(change: CornerChange): string {
 
 /** What that direction is, for readers. */
 export const directionMeaning =
-  'The unchanged direction is where the corner goes in base; motion aside of it counts in the distance from rest, not in it.';
+  'The unchanged direction is where the corner goes in base; motion aside of it counts in the distance from rest, not in it. ' +
+  'Quote the distance from rest, the excursion.';
 
 /** The error of a change as it is shown beside it, "0.6 mm"; empty where it is not known. */
 export const bandWords = ({ byMm, exactMm, bandMm }: CornerChange): string =>

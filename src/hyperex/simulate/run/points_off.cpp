@@ -86,9 +86,44 @@ double shared_weight(const tissue::TissueMesh& mesh, const Match& one, const Mat
   return shared;
 }
 
-bool changes_muscles(const MuscleOptions& muscles) {
-  return muscles.mirrored ||
-         std::ranges::any_of(muscles.gains, [](const MuscleGain& gain) { return gain.gain != 1; });
+/// Forces that are found as reactions belong to no muscle.
+bool changes_muscles(const SimulationOptions& options) {
+  if (options.drive.by != DriveBy::muscles) return false;
+  return options.muscles.mirrored ||
+         std::ranges::any_of(options.muscles.gains,
+                             [](const MuscleGain& gain) { return gain.gain != 1; });
+}
+
+bool driven_by_forces(const SimulationOptions& options) {
+  return options.drive.by != DriveBy::displacement && options.region.measured != Measured::all;
+}
+
+/// A cause in the step or in the mesh, as a part of a sentence; empty where there is none.
+std::string coarse_reason(const FarthestPoint& point, const SimulationOptions& options) {
+  if (options.model.strain == Strain::linear && point.between_steps_m >= kMostOfIt * point.off_m)
+    return fmt::format(
+        "between steps of time.step_s = {:g} the recorded motion of {} departs from "
+        "a straight line by {:.2f} mm: a shorter step follows it",
+        options.time.step_s, point.name, 1e3 * point.between_steps_m);
+  if (point.from_mesh_m > std::max(kNearMesh_m, point.edge_m))
+    return fmt::format(
+        "the mesh of the tissue ends {:.0f} mm from {}: mesh.trim_border_mm and "
+        "mesh.element_size_mm say where it ends",
+        1e3 * point.from_mesh_m, point.name);
+  // Forces place points that share elements as exactly as any others while the tissue is at rest.
+  if (point.neighbour_m <= (driven_by_forces(options) ? kOnePlace_m : point.edge_m))
+    return fmt::format(
+        "{} is {:.1f} mm from {}, closer than the elements' edges of {:.1f} mm: "
+        "points that lie closer together than the elements and move differently are "
+        "met only on average",
+        point.name, 1e3 * point.neighbour_m, face::name_in_words(point.neighbour),
+        1e3 * point.edge_m);
+  if (point.shared >= kSameNodes)
+    return fmt::format(
+        "the tissue's mesh has the same nodes for {} and {}, {:.1f} mm from it: such points are "
+        "met only on average",
+        point.name, face::name_in_words(point.neighbour), 1e3 * point.neighbour_m);
+  return "";
 }
 
 }  // namespace
@@ -114,7 +149,7 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
 std::string points_off_text(const std::vector<std::string>& names, const std::vector<double>& off_m,
                             double within_m) {
   constexpr double matters_m = 0.002;
-  constexpr std::size_t few = 2, some = 5;
+  constexpr std::size_t few = 2, some = 8;
   std::vector<std::size_t> off;
   for (std::size_t i = 0; i < names.size(); ++i)
     if (off_m[i] > within_m) off.push_back(i);
@@ -141,39 +176,32 @@ std::string jitter_text(double jitter_m) {
       1e3 * jitter_m, 1e3 * kInSpace95 * jitter_m);
 }
 
+bool is_asked_for(const FarthestPoint& point, const SimulationOptions& options) {
+  if (options.region.measured == Measured::all) return false;
+  return changes_muscles(options) && coarse_reason(point, options).empty();
+}
+
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched) {
   if (options.region.measured == Measured::all) return "";
-  const bool by_forces = options.drive.by != DriveBy::displacement;
-  if (options.model.strain == Strain::linear && point.between_steps_m >= kMostOfIt * point.off_m)
+  if (std::string coarse = coarse_reason(point, options); !coarse.empty()) return coarse;
+  if (!driven_by_forces(options)) return "";
+  if (changes_muscles(options))
     return fmt::format(
-        "between steps of time.step_s = {:g} the recorded motion of {} departs from "
-        "a straight line by {:.2f} mm: a shorter step follows it",
-        options.time.step_s, point.name, 1e3 * point.between_steps_m);
-  if (point.from_mesh_m > std::max(kNearMesh_m, point.edge_m))
-    return fmt::format(
-        "the mesh of the tissue ends {:.0f} mm from {}: mesh.trim_border_mm and "
-        "mesh.element_size_mm say where it ends",
-        1e3 * point.from_mesh_m, point.name);
-  // Forces place points that share elements as exactly as any others while the tissue is at rest.
-  if (point.neighbour_m <= (by_forces ? kOnePlace_m : point.edge_m))
-    return fmt::format(
-        "{} is {:.1f} mm from {}, closer than the elements' edges of {:.1f} mm: "
-        "points that lie closer together than the elements and move differently are "
-        "met only on average",
-        point.name, 1e3 * point.neighbour_m, face::name_in_words(point.neighbour),
-        1e3 * point.edge_m);
-  if (point.shared >= kSameNodes)
-    return fmt::format(
-        "the tissue's mesh has the same nodes for {} and {}, {:.1f} mm from it: such points are "
-        "met only on average",
-        point.name, face::name_in_words(point.neighbour), 1e3 * point.neighbour_m);
-  if (touched || !by_forces) return "";
-  if (changes_muscles(options.muscles))
-    return "muscles.gain or muscles.mirrored changes the forces that were found for them";
+        "{} changes the forces that were found for the points: they end where the changed muscles "
+        "carry them, which is a result and no fault; a run without it meets them as far as its "
+        "forces can",
+        options.muscles.mirrored ? "muscles.mirrored" : "muscles.gain");
   return fmt::format(
       "with drive.by = \"{}\" forces carry the points, exactly only at rest and in the tissue for "
-      "which they were found; drive.by = \"displacement\" meets them",
-      word_of(options.drive.by));
+      "which they were found; drive.by = \"displacement\" meets them{}",
+      word_of(options.drive.by), touched ? ". Contact moves points too where surfaces touch" : "");
+}
+
+std::string likely_reason(bool touched) {
+  return touched ? "contact acted in this run: a point ends only as near as the surface that is in "
+                   "its way allows"
+                 : "no one cause was found; a finer mesh (mesh.element_size_mm) or a shorter step "
+                   "(time.step_s) may meet them";
 }
 
 }  // namespace hyperex::simulate

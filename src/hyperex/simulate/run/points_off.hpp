@@ -34,7 +34,7 @@ FarthestPoint farthest_point(const tissue::TissueMesh& mesh, const DrivenPoints&
 
 /// "3 driven points end up to 0.74 mm from where they are driven, the farthest: ibug68_48 (corner
 /// of the mouth, right), ibug68_54 (corner of the mouth, left)", of the points that are off by more
-/// than `within_m`: the two farthest, five where one is off by 2 mm or more. Empty where none is.
+/// than `within_m`: the two farthest, eight where one is off by 2 mm or more. Empty where none is.
 /// `off_m`: one per name.
 std::string points_off_text(const std::vector<std::string>& names, const std::vector<double>& off_m,
                             double within_m);
@@ -46,8 +46,14 @@ bool is_within_jitter(double off_m, double jitter_m);
 /// "the recording's jitter of 0.20 mm alone moves a point by up to 0.56 mm (95 %)"
 std::string jitter_text(double jitter_m);
 
+/// Whether points end elsewhere because the options change the muscles' forces, by a gain other
+/// than 1 or by mirroring, and neither step nor mesh explains the farthest one: it is a result
+/// then, no fault.
+bool is_asked_for(const FarthestPoint& point, const SimulationOptions& options);
 /// Why the point ends elsewhere than it is driven, as a part of a sentence. Empty where no cause
 /// can be established. `touched`: contact changed some frame.
 std::string reason_of(const FarthestPoint& point, const SimulationOptions& options, bool touched);
+/// What is likely where reason_of() is empty, as a part of a sentence.
+std::string likely_reason(bool touched);
 
 }  // namespace hyperex::simulate

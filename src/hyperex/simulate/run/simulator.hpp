@@ -64,7 +64,8 @@ struct SimulationReport {
     double seconds = 0;
   } contact;
   /// Ids: forces.found_anew, solver.reduced_not_converged, drive.points_off,
-  /// contact.no_equilibrium; notes: solver.reduced_error_small, drive.points_off_by_jitter.
+  /// contact.no_equilibrium; notes: solver.reduced_error_small, drive.points_off_by_jitter,
+  /// drive.points_off_by_gain.
   std::vector<Note> notes;
 };
 

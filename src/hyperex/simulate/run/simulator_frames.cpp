@@ -109,10 +109,15 @@ void Simulator::Impl::note_driven_off(const std::vector<double>& off_m, const Po
         make_note("drive.points_off_by_jitter", text + "; " + jitter_text(jitter_m)));
     return;
   }
-  const std::string reason =
-      reason_of(farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m),
-                options, report.contact.frames > 0);
-  warn("drive.points_off", "drive.points", text + (reason.empty() ? "" : "; ") + reason);
+  const FarthestPoint farthest =
+      farthest_point(*mesh, driven, points, frame_time_s, options.time.step_s, off_m);
+  const bool touched = report.contact.frames > 0;
+  const std::string established = reason_of(farthest, options, touched),
+                    why = "; " + (established.empty() ? likely_reason(touched) : established);
+  if (is_asked_for(farthest, options))
+    report.notes.push_back(make_note("drive.points_off_by_gain", text + why));
+  else
+    warn("drive.points_off", "drive.points", text + why);
 }
 
 void Simulator::Impl::warn(const char* id, const char* key, std::string text) {

@@ -72,7 +72,7 @@ export function symmetryCurves(replay: Replay, shown: Shown): Part[] {
   return [{
     caption: [
       plainFigures(replay, shown), disagreement(replay, shown),
-      `S = ln |ξL − ξR|: smaller is more symmetric. ${whatSCompares} ${floor.caption}`,
+      `S = ln |ξL − ξR|: smaller where both sides stretch more alike, negative where ξL and ξR differ by less than 1. ${whatSCompares} ${floor.caption}`,
     ].filter(Boolean).join(' '),
     unit: '', digits: 2, timeS: own.time_s, yLabel: 'S (natural logarithm)', heightPx: several ? 250 : 200,
     range: rangeOf(own, [floor.curve.values, ...faces.map(({ curve }) => curve.s)]),

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The text beside S(t): the millimetres of the corners, and a remark where S and the millimetres disagree about which
-// of two faces is more symmetric.
+// of two faces differs less between its sides.
 import { apartMm, bothRecorded, cornersOf, mm } from '../corners';
 import type { Replay } from '../data';
 import { faceWords, signed } from '../../page/format';
@@ -8,8 +8,8 @@ import type { Shown } from '../shown';
 
 /** As pictures and the terminal have it (metrics/symmetry.hpp). */
 export const whatSCompares =
-  'S compares how much the distances from each corner of the mouth to eye, lid, nose and lip stretch; it does not say which face moves more evenly in mm: ' +
-  'the excursions of both sides do.';
+  'S compares how much the distances from each corner of the mouth to eye, lid, nose and lip stretch; it does not say which face moves more evenly in mm ' +
+  'and grades no palsy: the excursions say which side moves less.';
 
 /** If one side hardly moves, the ratio of the sides is meaningless. */
 const leastForRatioMm = 0.5;
@@ -50,7 +50,7 @@ function aboveFloor(replay: Replay, face: number): boolean {
 }
 
 /** S and the millimetres, as they are shown, order two faces differently. */
-function disagree(replay: Replay, a: number, b: number): { symmetric: number; other: number } | null {
+function disagree(replay: Replay, a: number, b: number): { lower: number; other: number } | null {
   const [sA, sB] = [largestS(replay, a), largestS(replay, b)];
   const [cornersA, cornersB] = [cornersOf(replay, a), cornersOf(replay, b)];
   if (sA === null || sB === null || !cornersA || !cornersB || !bothRecorded(cornersA) || !bothRecorded(cornersB)) return null;
@@ -59,7 +59,7 @@ function disagree(replay: Replay, a: number, b: number): { symmetric: number; ot
   const byS = Number(sA.toFixed(2)) - Number(sB.toFixed(2));
   const byMm = Number((apartMm(cornersA) - apartMm(cornersB)).toFixed(1));
   if (byS * byMm >= 0) return null;
-  return byS < 0 ? { symmetric: a, other: b } : { symmetric: b, other: a };
+  return byS < 0 ? { lower: a, other: b } : { lower: b, other: a };
 }
 
 /** The two faces shown; of one, that and base; of base alone, the first variant that is ordered differently. */
@@ -75,11 +75,11 @@ export function disagreement(replay: Replay, shown: Shown): string {
   for (const [a, b] of pairsOf(replay, shown)) {
     const found = disagree(replay, a, b);
     if (!found) continue;
-    const [one, other] = [found.symmetric, found.other].map((face) => ({
+    const [one, other] = [found.lower, found.other].map((face) => ({
       name: faceWords(replay.faces, face), s: signed(largestS(replay, face)!.toFixed(2)), apart: mm(apartMm(cornersOf(replay, face)!)),
     }));
-    return `By its largest S “${one.name}” is more symmetric than “${other.name}” (${one.s}, not ${other.s}), by the millimetres of the corners less so ` +
-      `(a difference of ${one.apart}, not ${other.apart}): the two measure different things, S the stretches to eye, lid, nose and lip.`;
+    return `The largest S of “${one.name}” is lower than that of “${other.name}” (${one.s}, not ${other.s}), but its corners of the mouth differ more ` +
+      `(by ${one.apart}, not ${other.apart}): S compares stretches to eye, lid, nose and lip. For which side moves less, read the millimetres.`;
   }
   return '';
 }

@@ -54,7 +54,7 @@ const columns: Column[] = [
   },
   {
     key: 'symmetry_integral_s', head: 'Symmetry integral', unit: 's', digits: 4,
-    says: '|ξL − ξR| summed over time; smaller is more symmetric. As S it compares stretches, and does not say which face moves more evenly in mm.',
+    says: '|ξL − ξR| summed over time; smaller where both sides stretch more alike. As S it does not say which face moves more evenly in mm, and grades no palsy.',
   },
 ];
 const insideOut: Column = {
