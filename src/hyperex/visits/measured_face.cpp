@@ -353,6 +353,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   if (face.head_known)
     for (const Note& doubt : session::extent_warnings(steady.motion))
       face.extent_doubts.push_back(doubt.text);
+  if (const auto still = session::stillness_warning(steady.motion, false))
+    face.extent_doubts.push_back(still->text);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
   const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);

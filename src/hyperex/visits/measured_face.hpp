@@ -41,8 +41,8 @@ struct MeasuredFace {
   /// How many times as large the face at rest is as in the first recording, where that is another
   /// scale (scale_between.hpp): then lengths are not comparable. Nothing: one scale.
   std::optional<double> other_scale;
-  /// That the recording seems to start or to end in an expression, sentences
-  /// (session::extent_warnings).
+  /// That the recording seems to start or to end in an expression (session::extent_warnings), or
+  /// that nothing moves in it (session::stillness_warning), sentences.
   std::vector<std::string> extent_doubts;
   std::vector<std::string> remarks;  ///< what the reader must know of this recording, sentences
 };

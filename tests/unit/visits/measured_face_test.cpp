@@ -188,6 +188,15 @@ TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
   EXPECT_THAT(part(40, 90), testing::ElementsAre(HasSubstr("seems to start in an expression")));
 }
 
+TEST(MeasuredFace, ARecordingInWhichNothingMovesIsDoubted) {
+  const auto doubts = [](double share) {
+    const motion::Motion smile = recording_of({.right = share, .left = share});
+    return measure(smile, visits_of(1), 0.0, nullptr).extent_doubts;
+  };
+  EXPECT_THAT(doubts(0), testing::ElementsAre(HasSubstr("nothing moves in the recording")));
+  EXPECT_THAT(doubts(0.1), testing::IsEmpty());
+}
+
 /// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
 TEST(MeasuredFace, CornersElsewhereAtRestAreRemarked) {
   const MeasuredFace first = exact({});
