@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
-#include "hyperex/io/scan.hpp"
 #include "hyperex/session/misplaced_points.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/unit_that_fits.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -64,16 +63,9 @@ double spread_m(const Points& points) {
 
 /// What to do about a size of `ratio` that was read in this unit.
 std::string advice(double ratio, const std::string& unit_note) {
-  constexpr std::pair<const char*, double> units[] = {
-      {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inches", 0.0254}};
-  if (const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' '))))
-    for (const auto& [name, metres] : units) {
-      const double factor = ratio * metres / io::metres_per(*read);
-      if (metres != io::metres_per(*read) && std::abs(std::log(factor)) < std::log(kPeopleDiffer))
-        return fmt::format("its lengths are as if in {}, and were read as {}: {}", name, unit_note,
-                           std::string(name) == "inches" ? "give them in mm, cm or m"
-                                                         : "correct the unit there or state it");
-    }
+  if (const auto unit =
+          unit_that_fits(ratio, unit_note, kPeopleDiffer, "correct the unit there or state it"))
+    return *unit;
   return "check its unit" + (unit_note.empty() ? "" : ", which was read as " + unit_note) +
          ", and that names and points belong together";
 }

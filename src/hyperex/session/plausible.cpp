@@ -15,6 +15,7 @@
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/keyframes.hpp"
+#include "hyperex/session/unit_that_fits.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -41,6 +42,8 @@ constexpr Scales kCameraScales{0.8, 1.25};
 // By seven points: 0.98 to 1.01 of one person; of two people 0.87 to 1.11, outside these bounds in
 // seven of ten pairs.
 constexpr Scales kPointScales{0.95, 1.05};
+/// How far one person's two sizes may be apart, as a factor, where a unit is to be found.
+constexpr double kSameSize = 1.05;
 // Measured: 1.7 to 2.1 mm on faces (embedded face, Spacetime, AnimFace). At ears, necks and ragged
 // borders 10 mm are reached, but these are not part of the face (38 mm from the nearest landmark
 // for subject A, 27 mm for humface).
@@ -51,19 +54,6 @@ std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, 
   for (const auto& [name, position] : landmarks)
     if (const double d = (position - p).norm(); d < nearest.second) nearest = {name, d};
   return nearest;
-}
-
-/// The unit in which the recording has the scan's size, if it is another than the one read.
-/// `unit_note`: as Motion has it, "mm (as the columns say)".
-std::optional<io::LengthUnit> unit_that_fits(double scale, const std::string& unit_note) {
-  constexpr double within = 0.05;
-  const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' ')));
-  if (!read) return std::nullopt;
-  for (const Word<io::LengthUnit>& word : words_of(io::LengthUnit{})) {
-    const double ratio = io::metres_per(word.value) / io::metres_per(*read);
-    if (word.value != *read && std::abs(scale / ratio - 1) <= within) return word.value;
-  }
-  return std::nullopt;
 }
 
 /// What a device cannot record, keyframes of weights state.
@@ -201,19 +191,22 @@ std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_no
   const Scales scales = points_of == PointsOf::person ? kPointScales : kCameraScales;
   if (fit.rms_mm <= most_mm && fit.scale >= scales.least && fit.scale <= scales.most)
     return std::nullopt;
-  const auto unit = unit_that_fits(fit.scale, unit_note);
-  return make_warning(
-      "recording.fits_badly",
-      fmt::format(
-          "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's "
-          "landmarks of the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} "
-          "to {:g}); {}",
-          fit.rms_mm, fit.scale, most_mm, scales.least, scales.most,
-          unit ? fmt::format("its lengths are as if in {}, and were read as {}: correct the "
-                             "unit there or in motion.unit",
-                             io::name_of(*unit), unit_note)
-               : "check that names, axes and unit are right and that both are of one "
-                 "person"));
+  const auto unit = unit_that_fits(1 / fit.scale, unit_note, kSameSize,
+                                   "correct the unit there or in motion.unit");
+  const std::string by_size = fmt::format(
+      "the recording has not the size of the scan: it fits at a scale of {:.3f} (expected: {:g} to "
+      "{:g}), and so laid its points are {:.1f} mm rms from the scan's landmarks of the same "
+      "names, "
+      "as is usual; {}",
+      fit.scale, scales.least, scales.most, fit.rms_mm,
+      unit.value_or("check that the unit is right and that both are of one person"));
+  const std::string by_points = fmt::format(
+      "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's landmarks "
+      "of "
+      "the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to {:g}); {}",
+      fit.rms_mm, fit.scale, most_mm, scales.least, scales.most,
+      unit.value_or("check that names, axes and unit are right and that both are of one person"));
+  return make_warning("recording.fits_badly", fit.rms_mm <= most_mm ? by_size : by_points);
 }
 
 std::optional<Note> rescaled_note(double scale) {

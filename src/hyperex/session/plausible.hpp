@@ -42,7 +42,8 @@ enum class PointsOf {
 /// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
 /// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
 /// else 10 mm; or a scale outside 0.95 to 1.05. Of a model 10 mm, of a model and of a camera 0.8 to
-/// 1.25. `unit_note`: Motion::unit_note; where the scale is that of another unit, the warning names
+/// 1.25. Where the scale alone is outside, the sentence is about the size. `unit_note`:
+/// Motion::unit_note; where the scale is that of another unit, inches among them, the warning names
 /// it.
 std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_note,
                                    PointsOf points_of);

@@ -144,6 +144,20 @@ TEST(MisfitWarning, KnowsAnotherPersonByTheSize) {
   for (const double own : {0.96, 0.982, 1.007, 1.04}) EXPECT_EQ(warning(1, own), std::nullopt);
 }
 
+TEST(MisfitWarning, IsAboutTheSizeWhereThePointsFit) {
+  const auto text = [](double rms_mm, double scale) {
+    return misfit_warning({rms_mm, scale, 68}, "mm (as stated)", PointsOf::person).value().text;
+  };
+  EXPECT_THAT(text(1.5, 10),
+              AllOf(HasSubstr("has not the size of the scan: it fits at a scale of 10.000 "
+                              "(expected: 0.95 to 1.05)"),
+                    HasSubstr("1.5 mm rms"), HasSubstr("as if in cm"), Not(HasSubstr("badly")),
+                    Not(HasSubstr("under 5 mm"))));
+  EXPECT_THAT(text(1.5, 1.25), HasSubstr("has not the size of the scan"));
+  for (const double scale : {1.0, 1.25})
+    EXPECT_THAT(text(5.5, scale), AllOf(HasSubstr("fits the scan badly"), HasSubstr("under 5 mm")));
+}
+
 TEST(RescaledNote, SaysInWhoseMillimetresResultsAre) {
   EXPECT_THAT(rescaled_note(0.931),
               Optional(AllOf(is_note("recording.rescaled"), says("in millimetres of the scan"),
@@ -164,6 +178,10 @@ TEST(MisfitWarning, NamesTheUnitWhoseScaleItIs) {
   EXPECT_THAT(text(1040, "mm (as the file says)"), HasSubstr("as if in m,"));
   EXPECT_THAT(text(0.1, "cm (as stated)"), HasSubstr("as if in mm"));
   EXPECT_THAT(text(100, "cm (as stated)"), HasSubstr("as if in m,"));
+  EXPECT_THAT(
+      text(25.6, "mm (as stated)"),
+      HasSubstr("as if in inches, and were read as mm (as stated): give them in mm, cm or m"));
+  EXPECT_THAT(text(2.54, "cm (guessed)"), HasSubstr("as if in inches"));
   for (const auto& [scale, unit_note] : {std::pair{9.4, "mm (as stated)"},
                                          {10.0, "cm (as stated)"},
                                          {10.0, "cm, mm (as the columns say)"},
