@@ -93,18 +93,23 @@ std::optional<Note> elsewhere_warning(const motion::Motion& sample) {
   const std::size_t count = points.size();
   if (count == 0) return std::nullopt;
   std::vector<std::string> named;
-  for (const auto& [name, off_m] : std::span(points).first(std::min(count, most_named)))
-    named.push_back(fmt::format("{} lies {:.0f} mm off", face::name_in_words(name), 1e3 * off_m));
+  for (const auto& point : std::span(points).first(std::min(count, most_named)))
+    named.push_back(fmt::format("{} lies {:.0f} mm off{}", face::name_in_words(point.name),
+                                1e3 * point.off_m, exchanged_axes_words(point)));
   add_rest(named, count);
+  const bool one = count == 1;
+  const bool by_axes =
+      std::ranges::none_of(points, [](const auto& point) { return point.exchanged_axes.empty(); });
   return make_warning(
       "recording.point_off",
-      fmt::format(
-          "{} of the recording {} not where {} has {}: {}; {} may be exchanged: correct {} in the "
-          "recording, or leave {} out",
-          count == 1 ? "one point" : fmt::format("{} points", count), count == 1 ? "is" : "are",
-          average.whose, count == 1 ? "it" : "them", fmt::join(named, ", "),
-          count == 1 ? "its name" : "their names", count == 1 ? "it" : "them",
-          count == 1 ? "it" : "them"));
+      fmt::format("{} of the recording {} not where {} has {}: {};{} correct {} in the recording, "
+                  "or leave {} out",
+                  one ? "one point" : fmt::format("{} points", count), one ? "is" : "are",
+                  average.whose, one ? "it" : "them", fmt::join(named, ", "),
+                  by_axes ? ""
+                  : one   ? " its name may be exchanged:"
+                          : " their names may be exchanged:",
+                  one ? "it" : "them", one ? "it" : "them"));
 }
 
 }  // namespace
@@ -124,6 +129,10 @@ std::vector<Note> check_alone(const motion::Motion& m, Readings readings) {
 
 std::optional<Note> size_warning(const motion::Motion& m) {
   return size_warning_of(fullest_sample(m));
+}
+
+std::optional<Note> point_off_warning(const motion::Motion& m) {
+  return elsewhere_warning(fullest_sample(m));
 }
 
 std::string guessed_unit(const motion::Motion& m) {

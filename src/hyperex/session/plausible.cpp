@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -97,7 +99,19 @@ std::string pair_in_words(const std::string& name, const std::string& other) {
 struct ExchangedPairs {
   std::vector<std::string> surely;   ///< by more than half of its length there
   std::vector<std::string> perhaps;  ///< by less
+  struct Other {
+    std::string pair, farther;
+    double off_m = 0;  ///< of the farther one from its place
+  };
+  /// Their exchange would not bring both nearer to their places: a point is wrong in another way.
+  std::vector<Other> others;
 };
+
+/// How far both points of a pair are from these places, m.
+std::array<double, 2> off_places(const std::array<Vec3, 2>& points,
+                                 const std::array<Vec3, 2>& places) {
+  return {(points[0] - places[0]).norm(), (points[1] - places[1]).norm()};
+}
 
 /// None where at least half of the pairs are exchanged.
 ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
@@ -115,17 +129,24 @@ ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRes
     if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
         there == face.landmarks.end())
       continue;
-    const Vec3 expected =
-        recording_from_face.scale * (recording_from_face.rotation * (there->second - here->second));
-    const double along = (of_recording(other) - of_recording(name)).dot(expected);
-    if (along < -kSurelyExchanged * expected.squaredNorm())
+    const std::array<Vec3, 2> at = {of_recording(name), of_recording(other)},
+                              places = {recording_from_face * here->second,
+                                        recording_from_face * there->second};
+    const Vec3 expected = places[1] - places[0];
+    const double along = (at[1] - at[0]).dot(expected);
+    const auto off_m = off_places(at, places), off_exchanged_m = off_places({at[1], at[0]}, places);
+    const bool both_nearer = off_exchanged_m[0] < off_m[1] && off_exchanged_m[1] < off_m[0];
+    if (along < 0 && !both_nearer)
+      pairs.others.push_back({pair_in_words(name, other), off_m[0] > off_m[1] ? name : other,
+                              std::max(off_m[0], off_m[1]) / recording_from_face.scale});
+    else if (along < -kSurelyExchanged * expected.squaredNorm())
       pairs.surely.push_back(pair_in_words(name, other));
     else if (along < 0)
       pairs.perhaps.push_back(pair_in_words(name, other));
     else
       ++right;
   }
-  if (pairs.surely.size() + pairs.perhaps.size() >= right) return {};
+  if (pairs.surely.size() + pairs.perhaps.size() + pairs.others.size() >= right) return {};
   return pairs;
 }
 
@@ -331,13 +352,25 @@ void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
 }
 
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
-  const std::vector<std::string> pairs = exchanged_pairs(stabilised, face).perhaps;
-  if (pairs.empty()) return std::nullopt;
+  const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
+  if (!pairs.perhaps.empty())
+    return make_warning(
+        "sides.exchanged_pair",
+        fmt::format("left and right seem to be exchanged in {}: they lie the other way round than "
+                    "on {}, while the other points do not; L and R are the subject's own sides",
+                    fmt::join(pairs.perhaps, "; "), face.whose));
+  if (pairs.others.empty()) return std::nullopt;
+  if (!misplaced_points(stabilised, face.landmarks).points.empty()) return std::nullopt;
+  std::vector<std::string> named;
+  for (const ExchangedPairs::Other& other : pairs.others)
+    named.push_back(fmt::format("{}: {} lies {:.1f} mm from its place", other.pair, other.farther,
+                                1e3 * other.off_m));
   return make_warning(
       "sides.exchanged_pair",
-      fmt::format("left and right seem to be exchanged in {}: they lie the other way round than on "
-                  "{}, while the other points do not; L and R are the subject's own sides",
-                  fmt::join(pairs, "; "), face.whose));
+      fmt::format("points lie the other way round than on {}, and exchanging left and right would "
+                  "not bring both to their places: {}; correct them in the recording, or leave "
+                  "them out",
+                  face.whose, fmt::join(named, "; ")));
 }
 
 void check_length(const scene::Scene& scene, const motion::Motion& m) {

@@ -88,11 +88,13 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eye
 /// Throws InputError where single pairs of points (face::mirrored_landmark) have their names
 /// exchanged in the first sample. The vector between the points of such a pair is opposite to the
 /// same vector on the face, after a similarity fitted to the common points, by more than half of
-/// its length. Nothing where at least half of the pairs are opposite (check_sides reports that).
+/// its length, and exchanging the two would bring both nearer to their places. Nothing where at
+/// least half of the pairs are opposite (check_sides reports that).
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
-/// that are set wrongly. check_pairs comes before it.
+/// that are set wrongly. check_pairs comes before it. Where no pair is exchanged but a vector is
+/// opposite, one of its points lies elsewhere: this is said unless misplaced_points() finds points.
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before

@@ -158,6 +158,29 @@ TEST(MisfitWarning, IsAboutTheSizeWhereThePointsFit) {
     EXPECT_THAT(text(5.5, scale), AllOf(HasSubstr("fits the scan badly"), HasSubstr("under 5 mm")));
 }
 
+/// Six points, one of them off by less than what shows which is wrong.
+TEST(ExchangedWarning, SaysHowFarAPointIsOffWhereNoExchangeHelps) {
+  const io::Landmarks landmarks = {
+      {"ibug68_36", {-0.05, 0.05, 0}},      {"ibug68_45", {0.05, 0.05, 0}},
+      {"ibug68_39", {-0.018, 0.05, 0.01}},  {"ibug68_42", {0.018, 0.05, 0.01}},
+      {"ibug68_48", {-0.012, -0.05, 0.01}}, {"ibug68_54", {0.012, -0.05, 0.01}}};
+  motion::Motion m;
+  m.time_s = {0};
+  m.positions.emplace_back(Eigen::Index(landmarks.size()), 3);
+  for (const auto& [name, at] : landmarks) {
+    m.positions[0].row(Eigen::Index(m.names.size())) = at.transpose();
+    m.names.push_back(name);
+  }
+  const FaceAtRest face{landmarks, "the face"};
+  EXPECT_EQ(exchanged_warning(m, face), std::nullopt);
+  m.positions[0].row(m.index_of("ibug68_54")) += Eigen::RowVector3d(-0.025, 0.014, 0);
+  EXPECT_NO_THROW(check_pairs(m, face));
+  EXPECT_THAT(exchanged_warning(m, face),
+              Optional(AllOf(is_warning("sides.exchanged_pair"),
+                             says("ibug68_48 and ibug68_54 (corner of the mouth): ibug68_54 lies"),
+                             says("mm from its place"), says("would not bring both"))));
+}
+
 TEST(RescaledNote, SaysInWhoseMillimetresResultsAre) {
   EXPECT_THAT(rescaled_note(0.931),
               Optional(AllOf(is_note("recording.rescaled"), says("in millimetres of the scan"),
