@@ -71,7 +71,13 @@ void bind_visits(py::module_& m) {
       .def_property_readonly(
           "summary", [](const Comparison& self) { return summary(self); }, "In sentences.")
       .def_property_readonly(
-          "remarks", [](const Comparison& self) { return remarks(self); },
+          "remarks",
+          [](const Comparison& self) {
+            std::vector<std::string> all = choices(self);
+            for (const auto& more : {doubts(self), remarks(self)})
+              all.insert(all.end(), more.begin(), more.end());
+            return all;
+          },
           "What the reader must know of the recordings.")
       .def(
           "__getitem__",

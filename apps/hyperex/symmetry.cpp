@@ -309,6 +309,12 @@ motion::Motion read(const SymmetryOptions& options, const fs::path& file,
   return motion;
 }
 
+/// That nothing moves. A run has warned of its recording.
+std::optional<Note> stillness_warning(const fs::path& run_folder, const motion::Motion& steady) {
+  if (!run_folder.empty()) return std::nullopt;
+  return session::stillness_warning(steady, false);
+}
+
 /// That a measured recording seems to start or to end in an expression. Weights know their rest,
 /// and a run has warned of its recording.
 std::vector<Note> extent_warnings(const SymmetryOptions& options, const fs::path& run_folder,
@@ -356,6 +362,7 @@ void run(const SymmetryOptions& options) {
     add(warnings, session::check_steady(steady, readings));
     append(warnings, extent_warnings(options, run_folder, steady));
   }
+  add(warnings, stillness_warning(run_folder, steady));
   add(warnings, session::coarse_warning(motion, readings));
   append(warnings, checked);
   for (const Note& warning : warnings) spdlog::warn("{}", warning.text);

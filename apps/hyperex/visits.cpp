@@ -85,6 +85,8 @@ void run(const VisitsOptions& options) {
   const visits::VisitsFile file = visits::read_visits(options.file);
   check_outputs_of(options, file);
   const visits::Comparison comparison = measured(file);
+  for (const std::string& choice : visits::choices(comparison)) std::cerr << choice << '\n';
+  for (const std::string& doubt : visits::doubts(comparison)) spdlog::warn("{}", doubt);
   for (const std::string& remark : visits::remarks(comparison)) spdlog::warn("{}", remark);
   print_table(comparison);
   std::cout << '\n';

@@ -127,7 +127,7 @@ TEST_F(LandmarksCommand, ACheckJudgesTheFitByFoundLandmarks) {
   });
   const Outcome checked = call("check scene.toml");
   EXPECT_EQ(checked.status, 0) << checked.err;
-  EXPECT_THAT(checked.out, testing::AllOf(HasSubstr("warning: the recording fits the scan badly"),
+  EXPECT_THAT(checked.out, testing::AllOf(HasSubstr("warning: the recording has not the size of"),
                                           HasSubstr("but ")));
   // What a run would refuse of the landmarks and the mesh, a check refuses.
   const Outcome wrong = call("check scene.toml --set 'drive.still_points=[\"antenna\"]'");

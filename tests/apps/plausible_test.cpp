@@ -248,6 +248,17 @@ TEST_F(Plausible, SymmetrySaysTheUnitItGuessedAndWhatNoFaceMeasures) {
                     HasSubstr("--unit states it"), HasSubstr("as if in inches")));
 }
 
+TEST_F(Plausible, SymmetrySaysThatNothingMovesAsCheckDoes) {
+  const std::string still = "warning: nothing moves in the recording";
+  EXPECT_THAT(call("symmetry motion.csv").err, Not(HasSubstr(still)));
+  write_motion(0, 16, [](motion::Motion& m) {
+    for (Points& sample : m.positions) sample = Points(m.positions.front());
+  });
+  EXPECT_THAT(call(kCheckFine).out, HasSubstr(still));
+  for (const std::string keep : {"", " --keep-head"})
+    EXPECT_THAT(call("symmetry motion.csv" + keep).err, HasSubstr(still));
+}
+
 TEST_F(Plausible, SymmetryRefusesExchangedSidesAsCheckDoes) {
   write_motion(0, 16, [](motion::Motion& m) {
     keep_mouth_and_headband(m);

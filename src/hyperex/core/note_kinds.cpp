@@ -111,7 +111,8 @@ constexpr NoteKind kKinds[] = {
     "the recording."),
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points lie the other way round than on the face, by less than half of their "
-    "distance there. Where they do by more, or most pairs do, the recording is refused."),
+    "distance there. Where they do by more, or most pairs do, the recording is refused. Where an "
+    "exchange would not bring both points nearer to their places, it says how far a point is off."),
   warning("anatomy.ct_fits_badly", "anatomy.ct",
     "The skin of the CT is more than 1.5 mm (median) from the scan after it was laid on it."),
   warning("anatomy.bone_outside", "anatomy.skull",

@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
-#include <utility>
 
 #include "hyperex/core/add_rest.hpp"
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
-#include "hyperex/io/scan.hpp"
 #include "hyperex/session/misplaced_points.hpp"
 #include "hyperex/session/plausible.hpp"
+#include "hyperex/session/unit_that_fits.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -64,16 +63,9 @@ double spread_m(const Points& points) {
 
 /// What to do about a size of `ratio` that was read in this unit.
 std::string advice(double ratio, const std::string& unit_note) {
-  constexpr std::pair<const char*, double> units[] = {
-      {"mm", 1e-3}, {"cm", 1e-2}, {"m", 1}, {"inches", 0.0254}};
-  if (const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' '))))
-    for (const auto& [name, metres] : units) {
-      const double factor = ratio * metres / io::metres_per(*read);
-      if (metres != io::metres_per(*read) && std::abs(std::log(factor)) < std::log(kPeopleDiffer))
-        return fmt::format("its lengths are as if in {}, and were read as {}: {}", name, unit_note,
-                           std::string(name) == "inches" ? "give them in mm, cm or m"
-                                                         : "correct the unit there or state it");
-    }
+  if (const auto unit =
+          unit_that_fits(ratio, unit_note, kPeopleDiffer, "correct the unit there or state it"))
+    return *unit;
   return "check its unit" + (unit_note.empty() ? "" : ", which was read as " + unit_note) +
          ", and that names and points belong together";
 }
@@ -101,18 +93,23 @@ std::optional<Note> elsewhere_warning(const motion::Motion& sample) {
   const std::size_t count = points.size();
   if (count == 0) return std::nullopt;
   std::vector<std::string> named;
-  for (const auto& [name, off_m] : std::span(points).first(std::min(count, most_named)))
-    named.push_back(fmt::format("{} lies {:.0f} mm off", face::name_in_words(name), 1e3 * off_m));
+  for (const auto& point : std::span(points).first(std::min(count, most_named)))
+    named.push_back(fmt::format("{} lies {:.0f} mm off{}", face::name_in_words(point.name),
+                                1e3 * point.off_m, exchanged_axes_words(point)));
   add_rest(named, count);
+  const bool one = count == 1;
+  const bool by_axes =
+      std::ranges::none_of(points, [](const auto& point) { return point.exchanged_axes.empty(); });
   return make_warning(
       "recording.point_off",
-      fmt::format(
-          "{} of the recording {} not where {} has {}: {}; {} may be exchanged: correct {} in the "
-          "recording, or leave {} out",
-          count == 1 ? "one point" : fmt::format("{} points", count), count == 1 ? "is" : "are",
-          average.whose, count == 1 ? "it" : "them", fmt::join(named, ", "),
-          count == 1 ? "its name" : "their names", count == 1 ? "it" : "them",
-          count == 1 ? "it" : "them"));
+      fmt::format("{} of the recording {} not where {} has {}: {};{} correct {} in the recording, "
+                  "or leave {} out",
+                  one ? "one point" : fmt::format("{} points", count), one ? "is" : "are",
+                  average.whose, one ? "it" : "them", fmt::join(named, ", "),
+                  by_axes ? ""
+                  : one   ? " its name may be exchanged:"
+                          : " their names may be exchanged:",
+                  one ? "it" : "them", one ? "it" : "them"));
 }
 
 }  // namespace
@@ -132,6 +129,10 @@ std::vector<Note> check_alone(const motion::Motion& m, Readings readings) {
 
 std::optional<Note> size_warning(const motion::Motion& m) {
   return size_warning_of(fullest_sample(m));
+}
+
+std::optional<Note> point_off_warning(const motion::Motion& m) {
+  return elsewhere_warning(fullest_sample(m));
 }
 
 std::string guessed_unit(const motion::Motion& m) {

@@ -25,6 +25,9 @@ std::vector<Note> check_alone(const motion::Motion& m, Readings readings = Readi
 /// same sample. Where the size is that of another unit, the warning names it.
 std::optional<Note> size_warning(const motion::Motion& m);
 
+/// `recording.point_off` as check_alone() finds it.
+std::optional<Note> point_off_warning(const motion::Motion& m);
+
 /// How the recording's unit was guessed, "cm (guessed: ...)"; empty where the file or its user
 /// states it.
 std::string guessed_unit(const motion::Motion& m);

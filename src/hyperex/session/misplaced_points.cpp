@@ -8,6 +8,8 @@
 #include <cmath>
 #include <functional>
 #include <numeric>
+#include <tuple>
+#include <utility>
 
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/add_rest.hpp"
@@ -127,7 +129,32 @@ bool is_exchanged(const Matched& points, Eigen::Index i, double within_m) {
   return lies_at(i, j) && lies_at(j, i);
 }
 
+/// With the two axes by whose exchange the point comes nearest to its landmark, if that is within
+/// `within_m`.
+MisplacedPoints::Point misplaced_point(const Matched& points, Eigen::Index i, double within_m) {
+  MisplacedPoints::Point point{points.names[std::size_t(i)], points.distance_m(i), "", within_m};
+  for (const auto& [a, b, words] :
+       {std::tuple{0, 1, "x and y"}, {0, 2, "x and z"}, {1, 2, "y and z"}}) {
+    Vec3 at = points.motion.row(i).transpose();
+    std::swap(at[a], at[b]);
+    const double off_m =
+        (points.scan_from_recording * at - Vec3(points.scan.row(i).transpose())).norm();
+    if (off_m >= point.off_exchanged_m) continue;
+    point.off_exchanged_m = off_m;
+    point.exchanged_axes = words;
+  }
+  if (point.exchanged_axes.empty()) point.off_exchanged_m = 0;
+  return point;
+}
+
 }  // namespace
+
+std::string exchanged_axes_words(const MisplacedPoints::Point& point) {
+  return point.exchanged_axes.empty()
+             ? ""
+             : fmt::format(" ({:.1f} mm with its {} exchanged)", 1e3 * point.off_exchanged_m,
+                           point.exchanged_axes);
+}
 
 MisplacedPoints misplaced_points(const motion::Motion& stabilised, const io::Landmarks& landmarks) {
   MisplacedPoints out;
@@ -142,7 +169,7 @@ MisplacedPoints misplaced_points(const motion::Motion& stabilised, const io::Lan
     const bool vague = points.size() < kManyToCompare || is_vague(name);
     const double limit_m = std::max(vague ? kOffOfVague_m : kOff_m, usual_m);
     if (points.off_m(i) > limit_m && !is_exchanged(points, i, limit_m)) {
-      out.points.push_back({name, points.distance_m(i)});
+      out.points.push_back(misplaced_point(points, i, std::max(kOff_m, usual_m)));
     } else {
       squares += points.residual.row(i).squaredNorm();
       ++out.others.common;
@@ -162,9 +189,10 @@ std::optional<Note> misplaced_warning(const MisplacedPoints& misplaced) {
   std::vector<std::string> named;
   for (const MisplacedPoints::Point& point : misplaced.points)
     if (named.size() < most_named)
-      named.push_back(fmt::format("{} {}{:.1f} mm{}", face::name_in_words(point.name),
+      named.push_back(fmt::format("{} {}{:.1f} mm{}{}", face::name_in_words(point.name),
                                   named.empty() ? "lies " : "", 1e3 * point.off_m,
-                                  named.empty() ? " from the scan's landmark of that name" : ""));
+                                  named.empty() ? " from the scan's landmark of that name" : "",
+                                  exchanged_axes_words(point)));
   add_rest(named, count);
   const bool one = count == 1;
   return make_warning(

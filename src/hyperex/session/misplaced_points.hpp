@@ -23,6 +23,9 @@ struct MisplacedPoints {
   struct Point {
     std::string name;
     double off_m = 0;
+    /// Two axes by whose exchange the point comes to its place: "x and y"; empty: none.
+    std::string exchanged_axes = "";
+    double off_exchanged_m = 0;  ///< as off_m, with these axes exchanged
   };
   std::vector<Point> points;  ///< the farthest first
   Misfit others;              ///< of the points that are not misplaced
@@ -35,9 +38,14 @@ struct MisplacedPoints {
 /// neighbours' (as vectors; none on the other lip), since faces differ smoothly from each other.
 /// In place of 8 mm, 30 mm hold for points that trackers and people place differently (the outline
 /// beside the chin, anatomical points that are no iBUG points), and where fewer than 20 points are
-/// common. Points exchanged with their mirror images are not misplaced. Finds nothing where fewer
+/// common. Points exchanged with their mirror images are not misplaced. Axes are named as exchanged
+/// where that brings the point within max(8 mm, 4 x the median distance). Finds nothing where fewer
 /// than six points are common.
 MisplacedPoints misplaced_points(const motion::Motion& stabilised, const io::Landmarks& landmarks);
+
+/// " (0.4 mm with its x and y exchanged)" where two axes of a point seem to be exchanged; else
+/// empty.
+std::string exchanged_axes_words(const MisplacedPoints::Point& point);
 
 /// `recording.point_off`: names up to three misplaced points.
 std::optional<Note> misplaced_warning(const MisplacedPoints& misplaced);

@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -15,6 +17,7 @@
 #include "hyperex/motion/rest.hpp"
 #include "hyperex/scene/keys.hpp"
 #include "hyperex/session/keyframes.hpp"
+#include "hyperex/session/unit_that_fits.hpp"
 #include "hyperex/simulate/drive/common_points.hpp"
 
 namespace hyperex::session {
@@ -41,6 +44,8 @@ constexpr Scales kCameraScales{0.8, 1.25};
 // By seven points: 0.98 to 1.01 of one person; of two people 0.87 to 1.11, outside these bounds in
 // seven of ten pairs.
 constexpr Scales kPointScales{0.95, 1.05};
+/// How far one person's two sizes may be apart, as a factor, where a unit is to be found.
+constexpr double kSameSize = 1.05;
 // Measured: 1.7 to 2.1 mm on faces (embedded face, Spacetime, AnimFace). At ears, necks and ragged
 // borders 10 mm are reached, but these are not part of the face (38 mm from the nearest landmark
 // for subject A, 27 mm for humface).
@@ -51,19 +56,6 @@ std::pair<std::string, double> nearest_landmark(const io::Landmarks& landmarks, 
   for (const auto& [name, position] : landmarks)
     if (const double d = (position - p).norm(); d < nearest.second) nearest = {name, d};
   return nearest;
-}
-
-/// The unit in which the recording has the scan's size, if it is another than the one read.
-/// `unit_note`: as Motion has it, "mm (as the columns say)".
-std::optional<io::LengthUnit> unit_that_fits(double scale, const std::string& unit_note) {
-  constexpr double within = 0.05;
-  const auto read = io::length_unit(unit_note.substr(0, unit_note.find(' ')));
-  if (!read) return std::nullopt;
-  for (const Word<io::LengthUnit>& word : words_of(io::LengthUnit{})) {
-    const double ratio = io::metres_per(word.value) / io::metres_per(*read);
-    if (word.value != *read && std::abs(scale / ratio - 1) <= within) return word.value;
-  }
-  return std::nullopt;
 }
 
 /// What a device cannot record, keyframes of weights state.
@@ -107,7 +99,19 @@ std::string pair_in_words(const std::string& name, const std::string& other) {
 struct ExchangedPairs {
   std::vector<std::string> surely;   ///< by more than half of its length there
   std::vector<std::string> perhaps;  ///< by less
+  struct Other {
+    std::string pair, farther;
+    double off_m = 0;  ///< of the farther one from its place
+  };
+  /// Their exchange would not bring both nearer to their places: a point is wrong in another way.
+  std::vector<Other> others;
 };
+
+/// How far both points of a pair are from these places, m.
+std::array<double, 2> off_places(const std::array<Vec3, 2>& points,
+                                 const std::array<Vec3, 2>& places) {
+  return {(points[0] - places[0]).norm(), (points[1] - places[1]).norm()};
+}
 
 /// None where at least half of the pairs are exchanged.
 ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
@@ -125,17 +129,24 @@ ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRes
     if (!(name < other) || stabilised.index_of(other) < 0 || here == face.landmarks.end() ||
         there == face.landmarks.end())
       continue;
-    const Vec3 expected =
-        recording_from_face.scale * (recording_from_face.rotation * (there->second - here->second));
-    const double along = (of_recording(other) - of_recording(name)).dot(expected);
-    if (along < -kSurelyExchanged * expected.squaredNorm())
+    const std::array<Vec3, 2> at = {of_recording(name), of_recording(other)},
+                              places = {recording_from_face * here->second,
+                                        recording_from_face * there->second};
+    const Vec3 expected = places[1] - places[0];
+    const double along = (at[1] - at[0]).dot(expected);
+    const auto off_m = off_places(at, places), off_exchanged_m = off_places({at[1], at[0]}, places);
+    const bool both_nearer = off_exchanged_m[0] < off_m[1] && off_exchanged_m[1] < off_m[0];
+    if (along < 0 && !both_nearer)
+      pairs.others.push_back({pair_in_words(name, other), off_m[0] > off_m[1] ? name : other,
+                              std::max(off_m[0], off_m[1]) / recording_from_face.scale});
+    else if (along < -kSurelyExchanged * expected.squaredNorm())
       pairs.surely.push_back(pair_in_words(name, other));
     else if (along < 0)
       pairs.perhaps.push_back(pair_in_words(name, other));
     else
       ++right;
   }
-  if (pairs.surely.size() + pairs.perhaps.size() >= right) return {};
+  if (pairs.surely.size() + pairs.perhaps.size() + pairs.others.size() >= right) return {};
   return pairs;
 }
 
@@ -201,19 +212,22 @@ std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_no
   const Scales scales = points_of == PointsOf::person ? kPointScales : kCameraScales;
   if (fit.rms_mm <= most_mm && fit.scale >= scales.least && fit.scale <= scales.most)
     return std::nullopt;
-  const auto unit = unit_that_fits(fit.scale, unit_note);
-  return make_warning(
-      "recording.fits_badly",
-      fmt::format(
-          "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's "
-          "landmarks of the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} "
-          "to {:g}); {}",
-          fit.rms_mm, fit.scale, most_mm, scales.least, scales.most,
-          unit ? fmt::format("its lengths are as if in {}, and were read as {}: correct the "
-                             "unit there or in motion.unit",
-                             io::name_of(*unit), unit_note)
-               : "check that names, axes and unit are right and that both are of one "
-                 "person"));
+  const auto unit = unit_that_fits(1 / fit.scale, unit_note, kSameSize,
+                                   "correct the unit there or in motion.unit");
+  const std::string by_size = fmt::format(
+      "the recording has not the size of the scan: it fits at a scale of {:.3f} (expected: {:g} to "
+      "{:g}), and so laid its points are {:.1f} mm rms from the scan's landmarks of the same "
+      "names, "
+      "as is usual; {}",
+      fit.scale, scales.least, scales.most, fit.rms_mm,
+      unit.value_or("check that the unit is right and that both are of one person"));
+  const std::string by_points = fmt::format(
+      "the recording fits the scan badly: its points are {:.1f} mm rms from the scan's landmarks "
+      "of "
+      "the same names, at a scale of {:.3f} (expected: under {:g} mm, {:g} to {:g}); {}",
+      fit.rms_mm, fit.scale, most_mm, scales.least, scales.most,
+      unit.value_or("check that names, axes and unit are right and that both are of one person"));
+  return make_warning("recording.fits_badly", fit.rms_mm <= most_mm ? by_size : by_points);
 }
 
 std::optional<Note> rescaled_note(double scale) {
@@ -338,13 +352,25 @@ void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
 }
 
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
-  const std::vector<std::string> pairs = exchanged_pairs(stabilised, face).perhaps;
-  if (pairs.empty()) return std::nullopt;
+  const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
+  if (!pairs.perhaps.empty())
+    return make_warning(
+        "sides.exchanged_pair",
+        fmt::format("left and right seem to be exchanged in {}: they lie the other way round than "
+                    "on {}, while the other points do not; L and R are the subject's own sides",
+                    fmt::join(pairs.perhaps, "; "), face.whose));
+  if (pairs.others.empty()) return std::nullopt;
+  if (!misplaced_points(stabilised, face.landmarks).points.empty()) return std::nullopt;
+  std::vector<std::string> named;
+  for (const ExchangedPairs::Other& other : pairs.others)
+    named.push_back(fmt::format("{}: {} lies {:.1f} mm from its place", other.pair, other.farther,
+                                1e3 * other.off_m));
   return make_warning(
       "sides.exchanged_pair",
-      fmt::format("left and right seem to be exchanged in {}: they lie the other way round than on "
-                  "{}, while the other points do not; L and R are the subject's own sides",
-                  fmt::join(pairs, "; "), face.whose));
+      fmt::format("points lie the other way round than on {}, and exchanging left and right would "
+                  "not bring both to their places: {}; correct them in the recording, or leave "
+                  "them out",
+                  face.whose, fmt::join(named, "; ")));
 }
 
 void check_length(const scene::Scene& scene, const motion::Motion& m) {

@@ -42,7 +42,8 @@ enum class PointsOf {
 /// `recording.fits_badly`: the recording fits the scan badly, as with another face, another unit,
 /// or points that share only their names: more than 5 mm rms where it has 20 common points or more,
 /// else 10 mm; or a scale outside 0.95 to 1.05. Of a model 10 mm, of a model and of a camera 0.8 to
-/// 1.25. `unit_note`: Motion::unit_note; where the scale is that of another unit, the warning names
+/// 1.25. Where the scale alone is outside, the sentence is about the size. `unit_note`:
+/// Motion::unit_note; where the scale is that of another unit, inches among them, the warning names
 /// it.
 std::optional<Note> misfit_warning(const Misfit& fit, const std::string& unit_note,
                                    PointsOf points_of);
@@ -87,11 +88,13 @@ std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eye
 /// Throws InputError where single pairs of points (face::mirrored_landmark) have their names
 /// exchanged in the first sample. The vector between the points of such a pair is opposite to the
 /// same vector on the face, after a similarity fitted to the common points, by more than half of
-/// its length. Nothing where at least half of the pairs are opposite (check_sides reports that).
+/// its length, and exchanging the two would bring both nearer to their places. Nothing where at
+/// least half of the pairs are opposite (check_sides reports that).
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
-/// that are set wrongly. check_pairs comes before it.
+/// that are set wrongly. check_pairs comes before it. Where no pair is exchanged but a vector is
+/// opposite, one of its points lies elsewhere: this is said unless misplaced_points() finds points.
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before

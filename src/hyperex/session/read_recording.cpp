@@ -343,7 +343,10 @@ void check_without_landmarks(const scene::Scene& scene, const motion::Motion& m,
   if (whole) {
     add(in.notes, start_warning(m, average, of_weights(scene)));
     add(in.notes, exchanged_warning(m, average));
-    if (!of_weights(scene)) add(in.notes, size_warning(m));
+    if (!of_weights(scene)) {
+      add(in.notes, size_warning(m));
+      add(in.notes, point_off_warning(m));
+    }
   }
   in.notes.push_back(
       whole ? make_note(

@@ -61,10 +61,10 @@ motion::StabilisedMotion without_head(const motion::Motion& motion, const Visits
     return tried.steady;
   }
   if (const auto unused = motion::still_points_beside_landmarks(tried.steady); !unused.empty())
-    face.remarks.push_back(motion::unused_still_points_sentence(unused) +
+    face.choices.push_back(motion::unused_still_points_sentence(unused) +
                            ", as not every recording shows them to be still");
   if (!still_points.names.empty())
-    face.remarks.push_back(motion::still_points_sentence(still_points) +
+    face.choices.push_back(motion::still_points_sentence(still_points) +
                            "; the same in every recording; rigid_points of the visits changes "
                            "that");
   if (const auto far = session::check_steady(tried.steady.motion))
@@ -297,7 +297,7 @@ void note_shape(const MeasuredFace& first, MeasuredFace& face) {
   if (common.size() < kFewest || spread_off_line(there) < 0.05) return;
   const double rms_m = rms_distance(fit_similarity(here, there).apply(here), there);
   if (rms_m <= kOnePerson_m) return;
-  face.remarks.push_back(
+  face.doubts.push_back(
       fmt::format("{}: the points at rest are {:.1f} mm rms from those of {} after a fit of place "
                   "and size (expected of one person: at most {:g} mm): it may be another person",
                   face.file, 1e3 * rms_m, first.file, 1e3 * kOnePerson_m));
@@ -322,7 +322,7 @@ void note_corners_at_rest(const MeasuredFace& first, MeasuredFace& face) {
                                   1e3 * off_m));
   }
   if (moved.empty()) return;
-  face.remarks.push_back(fmt::format(
+  face.doubts.push_back(fmt::format(
       "{}: corners of the mouth are elsewhere at rest than in {}, relative to brows, eyes and "
       "nose: {}; the face has changed at rest, or one of both recordings begins in an expression, "
       "and then its movement is measured too small",
@@ -334,10 +334,17 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
   if (!first || !have_one_scale(*first, face) ||
       !(std::abs(face.eye_distance_m / first->eye_distance_m - 1) > kLargestShare))
     return;
-  face.remarks.push_back(fmt::format(
+  face.doubts.push_back(fmt::format(
       "{}: the outer corners of the eyes are {:.1f} mm apart and {:.1f} mm at the first "
       "visit: it may be another person or another scale, and lengths may not be comparable",
       recording.filename().string(), 1e3 * face.eye_distance_m, 1e3 * first->eye_distance_m));
+}
+
+/// Whether points seem to be others than their names say, or lengths others than they are.
+bool doubts_figures(const Note& warning) {
+  static const std::vector<std::string> ids = {"sides.doubtful", "sides.exchanged_pair",
+                                               "recording.size_implausible", "recording.point_off"};
+  return std::ranges::count(ids, warning.id) > 0;
 }
 
 }  // namespace
@@ -353,6 +360,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   if (face.head_known)
     for (const Note& doubt : session::extent_warnings(steady.motion))
       face.extent_doubts.push_back(doubt.text);
+  if (const auto still = session::stillness_warning(steady.motion, false))
+    face.extent_doubts.push_back(still->text);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
   const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
@@ -397,12 +406,19 @@ MeasuredFace measure_recording(const session::CleanedRecording& recording, const
   const motion::Motion& motion = recording.motion;
   MeasuredFace face = measure(motion, visits, visit.jitter_m, first, still_points, number);
   if (const std::string unit = session::guessed_unit(motion); !unit.empty())
-    face.remarks.push_back(
+    face.choices.push_back(
         fmt::format("{}: the unit is {}; unit of the visits states it", face.file, unit));
-  for (const std::string& doubt : face.extent_doubts)
-    face.remarks.push_back(fmt::format("{} ({}): {}", visit.label, face.file, doubt));
-  for (const Note& warning : recording.warnings)
-    face.remarks.push_back(with_file_name(warning.text, motion.source));
+  const auto of_visit = [&](const std::string& doubt) {
+    return fmt::format("{} ({}): {}", visit.label, face.file, doubt);
+  };
+  for (const std::string& doubt : face.extent_doubts) face.doubts.push_back(of_visit(doubt));
+  for (const Note& warning : recording.warnings) {
+    const std::string text = with_file_name(warning.text, motion.source);
+    if (doubts_figures(warning))
+      face.doubts.push_back(of_visit(text));
+    else
+      face.remarks.push_back(text);
+  }
   return face;
 }
 

@@ -41,10 +41,12 @@ struct MeasuredFace {
   /// How many times as large the face at rest is as in the first recording, where that is another
   /// scale (scale_between.hpp): then lengths are not comparable. Nothing: one scale.
   std::optional<double> other_scale;
-  /// That the recording seems to start or to end in an expression, sentences
-  /// (session::extent_warnings).
+  /// That the recording seems to start or to end in an expression (session::extent_warnings), or
+  /// that nothing moves in it (session::stillness_warning), sentences.
   std::vector<std::string> extent_doubts;
-  std::vector<std::string> remarks;  ///< what the reader must know of this recording, sentences
+  std::vector<std::string> doubts;   ///< why its very figures may be wrong, sentences
+  std::vector<std::string> choices;  ///< what holds the head and which unit was guessed, sentences
+  std::vector<std::string> remarks;  ///< what else the reader must know of it, sentences
 };
 
 /// Measures a recording. The head pose is taken out (motion::stabilise). If the recording
@@ -66,8 +68,9 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
 session::CleanedRecording read_recording(const std::filesystem::path& recording,
                                          const VisitEntry& visit, const VisitsFile& visits);
 
-/// measure() of a recording, with what was found in its readings among the remarks, and its
-/// extent_doubts with the visit that they concern. `number`: as `recording` there.
+/// measure() of a recording, with what was found in its readings among the remarks. Among the
+/// doubts are its extent_doubts and points that seem to be elsewhere, each with its visit.
+/// `number`: as `recording` there.
 MeasuredFace measure_recording(const session::CleanedRecording& recording, const VisitEntry& visit,
                                const VisitsFile& visits, const MeasuredFace* first,
                                const motion::StillPoints& still_points, std::size_t number);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 #include "hyperex/visits/norms.hpp"
@@ -98,6 +99,17 @@ bool is_beyond(const MeasureOverVisits* one) {
          one->changes.back()->beyond == Beyond::yes;
 }
 
+/// How far a measure changed where that is beyond; else less than any change.
+double change_beyond(const MeasureOverVisits* one) {
+  return is_beyond(one) ? std::abs(one->changes.back()->value) : -1;
+}
+
+/// Adds those sentences that are not there yet.
+void add_each_once(const std::vector<std::string>& more, std::vector<std::string>& all) {
+  for (const std::string& sentence : more)
+    if (std::ranges::find(all, sentence) == all.end()) all.push_back(sentence);
+}
+
 /// An angle from 170 to -170 degrees turns by 20, not by 340.
 bool has_turned(const MeasureOverVisits* angle) {
   if (!is_beyond(angle)) return false;
@@ -168,6 +180,7 @@ std::string sentence(const MeasureOverVisits& one, const Headline& words,
   if (const auto& change = one.changes.back()) {
     judged = verdict(*change, words, one.measure.unit);
     if (one.measure.key == "corner_excursion") judged += change_of_direction(one, comparison);
+    if (!doubts(comparison).empty()) judged += "; doubtful, as said below";
   } else if (one.values.front() && one.values.back()) {
     judged += ", " + why_not_compared(comparison);
   }
@@ -187,15 +200,19 @@ std::string not_recorded(const Measure& measure, const Headline& words,
 
 std::vector<std::string> summary(const Comparison& comparison) {
   const Headline words = headline_of(comparison.file.expression.movement);
-  std::vector<std::string> out;
+  std::vector<std::pair<double, std::string>> sides;
   for (const Measure& measure : measures()) {
     if (measure.key != words.key) continue;
-    if (const MeasureOverVisits* one = measured(comparison, measure.key, measure.side))
-      out.push_back(sentence(*one, words, comparison));
-    else if (const std::string none = not_recorded(measure, words, comparison); !none.empty())
-      out.push_back(none);
+    const MeasureOverVisits* one = measured(comparison, measure.key, measure.side);
+    const std::string text =
+        one ? sentence(*one, words, comparison) : not_recorded(measure, words, comparison);
+    if (!text.empty()) sides.emplace_back(change_beyond(one), text);
   }
-  if (const Norm* norm = norm_of(comparison.file.expression); norm && !out.empty())
+  std::ranges::stable_sort(sides, std::ranges::greater(), &std::pair<double, std::string>::first);
+  std::vector<std::string> out;
+  for (const auto& [change, text] : sides) out.push_back(text);
+  for (const std::string& doubt : doubts(comparison)) out.push_back("Doubtful: " + doubt + ".");
+  if (const Norm* norm = norm_of(comparison.file.expression); norm && !sides.empty())
     out.push_back(fmt::format(
         "Healthy adults move the {} by {:.1f} mm, SD {:.1f}, as far as they can ({} adults: {}).",
         norm->part, norm->mean_mm, norm->deviation_mm, norm->people, norm->source));
@@ -219,15 +236,31 @@ std::string repetition_sentence(const Comparison& comparison) {
          "2018, 319). Three recordings per visit would measure it for this person.";
 }
 
+std::vector<std::string> doubts(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const auto* visit : {&comparison.faces.front(), &comparison.faces.back()})
+    for (const MeasuredFace& face : *visit) add_each_once(face.doubts, all);
+  return all;
+}
+
 std::vector<std::string> remarks(const Comparison& comparison) {
   std::vector<std::string> all;
   if (!comparison.file.order_remark.empty()) all.push_back(comparison.file.order_remark);
-  for (const std::string& remark : comparison.scan_remarks)
-    if (std::ranges::find(all, remark) == all.end()) all.push_back(remark);
+  add_each_once(comparison.scan_remarks, all);
   for (const auto& visit : comparison.faces)
-    for (const MeasuredFace& face : visit)
-      for (const std::string& remark : face.remarks)
-        if (std::ranges::find(all, remark) == all.end()) all.push_back(remark);
+    for (const MeasuredFace& face : visit) {
+      const bool between =
+          &visit != &comparison.faces.front() && &visit != &comparison.faces.back();
+      if (between) add_each_once(face.doubts, all);
+      add_each_once(face.remarks, all);
+    }
+  return all;
+}
+
+std::vector<std::string> choices(const Comparison& comparison) {
+  std::vector<std::string> all;
+  for (const auto& visit : comparison.faces)
+    for (const MeasuredFace& face : visit) add_each_once(face.choices, all);
   return all;
 }
 

@@ -14,14 +14,24 @@ namespace hyperex::visits {
 /// With one visit, its values alone. A corner of the mouth that moves 2 mm or more at both visits
 /// ends with ", but its direction has changed (upward 3.9 to -3.9 mm)" where a part of its way is
 /// reversed, or its angle turned, beyond the interval. A side whose points a visit lacks is "not
-/// recorded". Visits whose faces have different scales are not compared. A
+/// recorded". Visits whose faces have different scales are not compared. A change that is beyond
+/// comes first, the largest of them before the others; else R is before L. Where there are
+/// doubts(), each comparison is said to be doubtful, and each doubt follows: "Doubtful: ...". A
 /// last sentence has the norm of healthy adults, if there is one.
 std::vector<std::string> summary(const Comparison& comparison);
 
 /// Where the figure for repetition comes from.
 std::string repetition_sentence(const Comparison& comparison);
 
-/// The remarks on the order of visits and on all recordings, each once.
+/// Why the figures of the first or of the last visit, which summary() compares, may be wrong; each
+/// once.
+std::vector<std::string> doubts(const Comparison& comparison);
+
+/// The remarks on the order of visits and on all recordings, and the doubts of the visits between
+/// the first and the last; each once.
 std::vector<std::string> remarks(const Comparison& comparison);
+
+/// What was chosen where the file leaves it open, as the points that hold the head; each once.
+std::vector<std::string> choices(const Comparison& comparison);
 
 }  // namespace hyperex::visits

@@ -141,6 +141,28 @@ TEST(CheckAlone, OneExchangedPairAmongOthersIsRefused) {
                     HasSubstr("an average face"), HasSubstr("exchange their names")));
 }
 
+/// By the place of the face's origin the two corners lie the other way round, or hardly so.
+TEST(CheckAlone, APointWithTwoAxesExchangedIsNotCalledTheOtherSide) {
+  for (const double up_m : {0.0, -0.03}) {
+    motion::Motion m;
+    m.source = "alone.csv";
+    m.time_s = {0};
+    m.positions.emplace_back(68, 3);
+    for (int i = 0; i < 68; ++i) {
+      m.names.push_back(face::ibug(i));
+      const Vec3 at = average_face().landmarks.at(m.names.back()) + Vec3(0, up_m, 0);
+      m.positions[0].row(i) = at.transpose();
+    }
+    std::swap(m.positions[0](54, 0), m.positions[0](54, 1));
+    EXPECT_THAT(check_alone(m),
+                ElementsAre(AllOf(is_warning("recording.point_off"),
+                                  says("ibug68_54 (corner of the mouth, left) lies"),
+                                  says("with its x and y exchanged); correct it"))))
+        << up_m;
+    EXPECT_EQ(exchanged_warning(m, average_face()), std::nullopt);
+  }
+}
+
 TEST(CheckAlone, TheFirstSampleWithTheMostPointsIsJudged) {
   motion::Motion m = still_points_of(average_face().landmarks);
   m.positions[0].topRows(5).setConstant(std::numeric_limits<double>::quiet_NaN());

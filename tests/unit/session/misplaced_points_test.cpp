@@ -81,6 +81,19 @@ TEST(MisplacedPoints, AreNamedWithTheirDistance) {
                              says("the other 67 points"))));
 }
 
+TEST(MisplacedPoints, AreNamedWithAxesThatSeemToBeExchanged) {
+  motion::Motion m = seen(of_68_points());
+  const int corner = m.index_of("ibug68_54");
+  std::swap(m.positions.front()(corner, 1), m.positions.front()(corner, 2));
+  const MisplacedPoints found = misplaced_points(m, of_embedded_face());
+  ASSERT_EQ(found.points.size(), 1u);
+  EXPECT_EQ(found.points.front().exchanged_axes, "y and z");
+  EXPECT_LT(found.points.front().off_exchanged_m, 1e-4);
+  EXPECT_THAT(misplaced_warning(found), Optional(says(" (0.0 mm with its y and z exchanged);")));
+  m.positions.front()(corner, 0) += 0.02;
+  EXPECT_EQ(misplaced_points(m, of_embedded_face()).points.front().exchanged_axes, "");
+}
+
 TEST(MisplacedPoints, IncludeAMarkerAtTheOrigin) {
   motion::Motion m = seen(of_68_points());
   m.positions.front().row(m.index_of("ibug68_54")).setZero();

@@ -144,6 +144,43 @@ TEST(MisfitWarning, KnowsAnotherPersonByTheSize) {
   for (const double own : {0.96, 0.982, 1.007, 1.04}) EXPECT_EQ(warning(1, own), std::nullopt);
 }
 
+TEST(MisfitWarning, IsAboutTheSizeWhereThePointsFit) {
+  const auto text = [](double rms_mm, double scale) {
+    return misfit_warning({rms_mm, scale, 68}, "mm (as stated)", PointsOf::person).value().text;
+  };
+  EXPECT_THAT(text(1.5, 10),
+              AllOf(HasSubstr("has not the size of the scan: it fits at a scale of 10.000 "
+                              "(expected: 0.95 to 1.05)"),
+                    HasSubstr("1.5 mm rms"), HasSubstr("as if in cm"), Not(HasSubstr("badly")),
+                    Not(HasSubstr("under 5 mm"))));
+  EXPECT_THAT(text(1.5, 1.25), HasSubstr("has not the size of the scan"));
+  for (const double scale : {1.0, 1.25})
+    EXPECT_THAT(text(5.5, scale), AllOf(HasSubstr("fits the scan badly"), HasSubstr("under 5 mm")));
+}
+
+/// Six points, one of them off by less than what shows which is wrong.
+TEST(ExchangedWarning, SaysHowFarAPointIsOffWhereNoExchangeHelps) {
+  const io::Landmarks landmarks = {
+      {"ibug68_36", {-0.05, 0.05, 0}},      {"ibug68_45", {0.05, 0.05, 0}},
+      {"ibug68_39", {-0.018, 0.05, 0.01}},  {"ibug68_42", {0.018, 0.05, 0.01}},
+      {"ibug68_48", {-0.012, -0.05, 0.01}}, {"ibug68_54", {0.012, -0.05, 0.01}}};
+  motion::Motion m;
+  m.time_s = {0};
+  m.positions.emplace_back(Eigen::Index(landmarks.size()), 3);
+  for (const auto& [name, at] : landmarks) {
+    m.positions[0].row(Eigen::Index(m.names.size())) = at.transpose();
+    m.names.push_back(name);
+  }
+  const FaceAtRest face{landmarks, "the face"};
+  EXPECT_EQ(exchanged_warning(m, face), std::nullopt);
+  m.positions[0].row(m.index_of("ibug68_54")) += Eigen::RowVector3d(-0.025, 0.014, 0);
+  EXPECT_NO_THROW(check_pairs(m, face));
+  EXPECT_THAT(exchanged_warning(m, face),
+              Optional(AllOf(is_warning("sides.exchanged_pair"),
+                             says("ibug68_48 and ibug68_54 (corner of the mouth): ibug68_54 lies"),
+                             says("mm from its place"), says("would not bring both"))));
+}
+
 TEST(RescaledNote, SaysInWhoseMillimetresResultsAre) {
   EXPECT_THAT(rescaled_note(0.931),
               Optional(AllOf(is_note("recording.rescaled"), says("in millimetres of the scan"),
@@ -164,6 +201,10 @@ TEST(MisfitWarning, NamesTheUnitWhoseScaleItIs) {
   EXPECT_THAT(text(1040, "mm (as the file says)"), HasSubstr("as if in m,"));
   EXPECT_THAT(text(0.1, "cm (as stated)"), HasSubstr("as if in mm"));
   EXPECT_THAT(text(100, "cm (as stated)"), HasSubstr("as if in m,"));
+  EXPECT_THAT(
+      text(25.6, "mm (as stated)"),
+      HasSubstr("as if in inches, and were read as mm (as stated): give them in mm, cm or m"));
+  EXPECT_THAT(text(2.54, "cm (guessed)"), HasSubstr("as if in inches"));
   for (const auto& [scale, unit_note] : {std::pair{9.4, "mm (as stated)"},
                                          {10.0, "cm (as stated)"},
                                          {10.0, "cm, mm (as the columns say)"},

@@ -264,6 +264,38 @@ TEST(CompareVisits, AChangeOfDirectionStandsInTheSentence) {
       << "1 mm has none";
 }
 
+TEST(CompareVisits, TheLargestChangeThatIsBeyondComesFirst) {
+  const auto first_words = [](double right, double left) {
+    const auto sentences = summary(of_smiles({{Smile{}}, {Smile{.right = right, .left = left}}}));
+    return sentences[0].substr(0, 5) + sentences[1].substr(0, 5);
+  };
+  EXPECT_EQ(first_words(1, 0.6), "Left Right");
+  EXPECT_EQ(first_words(0.6, 1), "RightLeft ");
+  EXPECT_EQ(first_words(0.7, 0.4), "Left Right");
+  EXPECT_EQ(first_words(0.4, 0.7), "RightLeft ");
+  EXPECT_EQ(first_words(1, 0.95), "RightLeft ") << "within what repetition makes";
+}
+
+TEST(CompareVisits, ADoubtStandsBesideTheComparison) {
+  Comparison two = of_smiles({{Smile{}}, {Smile{.right = 0.6}}});
+  EXPECT_THAT(summary(two), testing::Each(Not(HasSubstr("oubtful"))));
+  for (const std::size_t visit : {0u, 1u}) {
+    Comparison doubted = two;
+    doubted.faces[visit][0].doubts = {"it may be another person"};
+    const std::vector<std::string> sentences = summary(doubted);
+    for (const std::size_t side : {0u, 1u})
+      EXPECT_THAT(sentences[side],
+                  HasSubstr(" what measurement and repetition make; doubtful, as said below."));
+    EXPECT_EQ(sentences[2], "Doubtful: it may be another person.");
+    EXPECT_EQ(sentences.size(), 4u);
+    EXPECT_THAT(remarks(doubted), testing::IsEmpty());
+  }
+  Comparison three = of_smiles({{Smile{}}, {Smile{}}, {Smile{.right = 0.6}}});
+  three.faces[1][0].doubts = {"it may be another person"};
+  EXPECT_THAT(summary(three), testing::Each(Not(HasSubstr("oubtful")))) << "not compared there";
+  EXPECT_THAT(remarks(three), testing::ElementsAre("it may be another person"));
+}
+
 TEST(CompareVisits, SayWhatChangedInSentences) {
   const std::vector<std::string> sentences = summary(of_smiles({{Smile{}}, {Smile{.right = 0.6}}}));
   ASSERT_EQ(sentences.size(), 3u);

@@ -98,6 +98,28 @@ TEST(MeasuredFace, DirectionsAreThoseOfTheSkullWhereABandIsChosen) {
   for (const char* side : {"R", "L"}) EXPECT_NEAR(up(askew, side), up(straight, side), 1e-6);
 }
 
+TEST(MeasuredFace, WhatHoldsTheHeadIsAChoice) {
+  motion::StillPoints still;
+  still.names = {"head_1", "head_2", "head_3", "head_4"};
+  const motion::Motion recording = with_band(recording_of({}), Eigen::Matrix3d::Identity());
+  const MeasuredFace face = measure(recording, visits_of(1), 0.0, nullptr, still);
+  EXPECT_THAT(face.choices, testing::ElementsAre(HasSubstr("the head is held by head_1, ")));
+  EXPECT_THAT(face.remarks, testing::IsEmpty());
+  EXPECT_THAT(face.doubts, testing::IsEmpty());
+}
+
+TEST(MeasuredFace, PointsThatSeemToBeOthersAreDoubtedWithTheirVisit) {
+  const session::CleanedRecording recording{
+      recording_of({}),
+      {make_warning("recording.point_off", "one point is off"),
+       make_warning("recording.time_unit_doubtful", "milliseconds?")}};
+  VisitsFile file = visits_of(1);
+  file.visits[0].jitter_m = 0;
+  const MeasuredFace face = measure_recording(recording, file.visits[0], file, nullptr, {}, 0);
+  EXPECT_THAT(face.doubts, testing::ElementsAre("day 1 (smile.csv): one point is off"));
+  EXPECT_THAT(face.remarks, testing::ElementsAre("milliseconds?"));
+}
+
 /// The other landmarks lie elsewhere at the second visit.
 TEST(MeasuredFace, DirectionsAreThoseOfLandmarksThatAreChosen) {
   VisitsFile file = visits_of(2);
@@ -188,47 +210,56 @@ TEST(MeasuredFace, RecordingsThatStartOrEndInTheSmileAreDoubted) {
   EXPECT_THAT(part(40, 90), testing::ElementsAre(HasSubstr("seems to start in an expression")));
 }
 
-/// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
-TEST(MeasuredFace, CornersElsewhereAtRestAreRemarked) {
-  const MeasuredFace first = exact({});
-  const auto remarks = [&](const Smile& smile, long from, long to) {
-    return measure(part_of(smile, from, to), visits_of(2), 0.0, &first).remarks;
+TEST(MeasuredFace, ARecordingInWhichNothingMovesIsDoubted) {
+  const auto doubts = [](double share) {
+    const motion::Motion smile = recording_of({.right = share, .left = share});
+    return measure(smile, visits_of(1), 0.0, nullptr).extent_doubts;
   };
-  EXPECT_THAT(remarks({}, 36, 60), testing::Contains(testing::AllOf(
-                                       HasSubstr("corners of the mouth are elsewhere"),
-                                       HasSubstr("the right one"), HasSubstr("the left one"))));
-  EXPECT_THAT(remarks({.right = 0}, 36, 60),
-              testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
-                                               testing::Not(HasSubstr("the right one")))));
-  EXPECT_THAT(remarks({}, 0, 60), testing::IsEmpty());
+  EXPECT_THAT(doubts(0), testing::ElementsAre(HasSubstr("nothing moves in the recording")));
+  EXPECT_THAT(doubts(0.1), testing::IsEmpty());
 }
 
-TEST(MeasuredFace, AnotherSizeIsRemarked) {
+/// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
+TEST(MeasuredFace, CornersElsewhereAtRestAreDoubted) {
+  const MeasuredFace first = exact({});
+  const auto doubts = [&](const Smile& smile, long from, long to) {
+    return measure(part_of(smile, from, to), visits_of(2), 0.0, &first).doubts;
+  };
+  EXPECT_THAT(doubts({}, 36, 60), testing::Contains(testing::AllOf(
+                                      HasSubstr("corners of the mouth are elsewhere"),
+                                      HasSubstr("the right one"), HasSubstr("the left one"))));
+  EXPECT_THAT(doubts({.right = 0}, 36, 60),
+              testing::Contains(testing::AllOf(HasSubstr("corners of the mouth are elsewhere"),
+                                               testing::Not(HasSubstr("the right one")))));
+  EXPECT_THAT(doubts({}, 0, 60), testing::IsEmpty());
+}
+
+TEST(MeasuredFace, AnotherSizeIsDoubted) {
   const MeasuredFace first = exact({});
   motion::Motion larger = recording_of({});
   for (Points& at : larger.positions) at *= 1.05;
   const MeasuredFace second = measure(larger, visits_of(2), 0.0, &first);
-  ASSERT_EQ(second.remarks.size(), 1u);
-  EXPECT_THAT(second.remarks[0],
+  ASSERT_EQ(second.doubts.size(), 1u);
+  EXPECT_THAT(second.doubts[0],
               HasSubstr("it may be another person or another scale, and lengths may not be "
                         "comparable"));
 }
 
 TEST(MeasuredFace, AnotherShapeMayBeAnotherPerson) {
   const MeasuredFace first = exact({});
-  const auto remarks = [&](double along_m) {
+  const auto doubts = [&](double along_m) {
     motion::Motion other = recording_of({});
     other.source = "other.csv";
     for (Points& at : other.positions)
       for (Eigen::Index p = 0; p < at.rows(); ++p) at(p, 2) += p % 2 ? along_m : -along_m;
-    return measure(other, visits_of(2), 0.0, &first).remarks;
+    return measure(other, visits_of(2), 0.0, &first).doubts;
   };
-  EXPECT_THAT(remarks(0.003), testing::Not(testing::Contains(HasSubstr("another person"))));
-  EXPECT_THAT(remarks(0.008), testing::Contains(testing::AllOf(
-                                  HasSubstr("other.csv: the points at rest are "),
-                                  HasSubstr("from those of smile.csv"),
-                                  HasSubstr("(expected of one person: at most 5 mm): it may be "
-                                            "another person"))));
+  EXPECT_THAT(doubts(0.003), testing::Not(testing::Contains(HasSubstr("another person"))));
+  EXPECT_THAT(doubts(0.008), testing::Contains(testing::AllOf(
+                                 HasSubstr("other.csv: the points at rest are "),
+                                 HasSubstr("from those of smile.csv"),
+                                 HasSubstr("(expected of one person: at most 5 mm): it may be "
+                                           "another person"))));
 }
 
 TEST(MeasuredFace, AnotherScaleIsRemarkedWithBothFilesAndTheRatio) {

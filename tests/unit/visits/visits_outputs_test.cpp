@@ -76,6 +76,17 @@ TEST(VisitsOutputs, ThePageHasTheSameFigures) {
   EXPECT_EQ(manifest["visits"][0]["no_picture"], "");
 }
 
+TEST(VisitsOutputs, ThePageHasDoubtsBesideTheHeadlineAndOtherRemarksBelow) {
+  Comparison two = two_visits();
+  two.faces[1][0].doubts = {"it may be another person"};
+  two.faces[1][0].choices = {"the head is held by a band"};
+  two.faces[1][0].remarks = {"a point jumps"};
+  const nlohmann::json manifest = page_of(two);
+  EXPECT_EQ(manifest["summary"][2], "Doubtful: it may be another person.");
+  EXPECT_EQ(manifest["notes"],
+            nlohmann::json::array({"the head is held by a band", "a point jumps"}));
+}
+
 TEST(VisitsOutputs, ThePageSaysWhatAPictureLacks) {
   VisitsFile file = visits_of(2);
   for (VisitEntry& visit : file.visits) visit.recordings = {"smile.csv"};
