@@ -62,7 +62,7 @@ TEST(RunCost, GrowsWithWhatARunWrites) {
   const Inputs inputs = read_inputs(scene);
   const auto cost = [&] { return *expected_cost(scene, inputs, Extent::full); };
   const RunCost whole = cost();
-  EXPECT_EQ(whole.frames, 80);
+  EXPECT_EQ(whole.frames, 81);
   EXPECT_EQ(whole.variants_seconds, 0);
   scene.output.vtu_strain = false;
   EXPECT_LT(cost().frames_bytes, 0.6 * whole.frames_bytes);
@@ -224,9 +224,9 @@ TEST(RunCost, OfACamerasRecordingIsNotKnownBeforeItIsRead) {
   EXPECT_FALSE(expected_cost(scene, inputs, Extent::quick));
   EXPECT_TRUE(expected_cost(scene, inputs, Extent::full));
   inputs.lasts_s = 4;  // by the number of its frames
-  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 120);
+  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 121);
   scene.time.end_s = 1;
-  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 30);
+  EXPECT_EQ(expected_cost(scene, inputs, Extent::quick)->frames, 31);
 }
 
 /// A quick estimate does not search for landmarks and does not align anything.
@@ -236,7 +236,7 @@ TEST(RunCost, IsKnownOfAScanWithoutLandmarks) {
   inputs.lasts_s = 3;
   const auto cost = expected_cost(embedded(), inputs, Extent::quick);
   ASSERT_TRUE(cost);
-  EXPECT_EQ(cost->frames, 90);
+  EXPECT_EQ(cost->frames, 91);
 }
 
 TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
@@ -244,16 +244,16 @@ TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
   const auto sentence = [&] {
     return sentence_of(*expected_cost(scene, read_inputs(scene), Extent::quick));
   };
-  // 80 frames at 30 Hz: the end, at 2.667 s, makes none.
-  EXPECT_THAT(sentence(), testing::HasSubstr("from 0 s to 2.633 s of the recording; about"));
+  // 81 frames at 30 Hz, the last at the end.
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 0 s to 2.667 s of the recording; about"));
   scene.motion.start_s = 1;
   scene.time.end_s = 1.5;  // half a second of it leads from rest to where the run begins
   EXPECT_THAT(sentence(),
-              testing::HasSubstr("from 1 s to 1.967 s of the recording, led in from rest "
+              testing::HasSubstr("from 1 s to 2 s of the recording, led in from rest "
                                  "over the 0.5 s before: frame 0 is at 0.5 s; about"));
   scene.time.end_s = 1;
   scene.motion.time_scale = 0.5;
-  EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.433 s of the recording"));
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.5 s of the recording"));
 }
 
 TEST(RunCost, IsAGuessWithoutLandmarks) {

@@ -53,7 +53,7 @@ TEST_F(Simulation, NoInputNoMotion) {
   for (const Measured measured : {Measured::none, Measured::all}) {
     options_.region.measured = measured;
     const SimulationResult r = run(still);
-    ASSERT_EQ(r.performance.skin_displacement_m.size(), 6u);
+    ASSERT_EQ(r.performance.skin_displacement_m.size(), 7u);
     for (const PointsF& d : r.performance.skin_displacement_m)
       EXPECT_LT(greatest(d), 1e-12);  // nanometres would be far too much
     EXPECT_EQ(r.report.inverted_tets, 0);
@@ -118,7 +118,7 @@ TEST_F(Simulation, DrivenNodesTakeTheInputExactlyAndTheLastSampleIsHeld) {
   motion.motion.time_s.resize(8);
   motion.motion.positions.resize(8);
   const SimulationResult r = run(motion);
-  EXPECT_EQ(r.performance.frame_time_s.size(), 18u);
+  EXPECT_EQ(r.performance.frame_time_s.size(), 19u);
   Boundary boundary(face_.mesh, face_.landmarks, motion,
                     measured_region(face_.mesh, face_.landmarks, motion, options_.region),
                     options_.drive, options_.support);
@@ -142,6 +142,7 @@ TEST_F(Simulation, DrivenNodesTakeTheInputExactlyAndTheLastSampleIsHeld) {
 TEST_F(Simulation, FramesBetweenStepsAreInterpolated) {
   options_.time.step_s = 0.008;
   options_.time.frame_rate_hz = 125;  // every step
+  options_.time.end_s = 0.408;        // a step after the last frame, which is at 0.4 s
   const SimulationResult steps = run();
   options_.time.frame_rate_hz = 30;
   options_.time.still_times_s = {0.0, 0.205, 0.05};
@@ -154,13 +155,26 @@ TEST_F(Simulation, FramesBetweenStepsAreInterpolated) {
                             a * steps.performance.skin_displacement_m[before + 1];
     EXPECT_LT((found - between).cwiseAbs().maxCoeff(), 1e-8) << t;
   };
-  ASSERT_EQ(frames.performance.frame_time_s.size(), 12u);
-  for (std::size_t f = 0; f < 12; ++f) {
+  ASSERT_EQ(frames.performance.frame_time_s.size(), 13u);
+  for (std::size_t f = 0; f < 13; ++f) {
     EXPECT_DOUBLE_EQ(frames.performance.frame_time_s[f], double(f) / 30);
     expect(frames.performance.skin_displacement_m[f], double(f) / 30);
   }
   for (int i = 0; i < 3; ++i)
     expect(frames.still_displacement_m[i], options_.time.still_times_s[i]);
+}
+
+/// A recording that ends at its widest keeps it.
+TEST_F(Simulation, TheLastSampleIsAFrame) {
+  auto motion = motion_;  // at 30 Hz
+  motion.motion.time_s.resize(7);
+  motion.motion.positions.resize(7);
+  options_.time.still_times_s = {1.0};  // later than the end: the end
+  const SimulationResult r = run(motion);
+  ASSERT_EQ(r.performance.frame_time_s.size(), 7u);
+  EXPECT_DOUBLE_EQ(r.performance.frame_time_s.back(), 0.2);
+  EXPECT_EQ(r.performance.skin_displacement_m.back(), r.still_displacement_m[0]);
+  EXPECT_EQ(r.performance.peak_frame, 6);
 }
 
 TEST_F(Simulation, FramesAgreeWithACommensurateStep) {
