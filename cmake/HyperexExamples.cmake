@@ -12,6 +12,8 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
                 ${examples}/second_face.toml ${examples}/flawed_scan.toml
                 ${examples}/recorded_smile.toml
           DESTINATION ${examples_folder} COMPONENT program)
+  install(FILES ${examples}/blender/play_weights.py DESTINATION ${examples_folder}/blender
+          COMPONENT program)
   hx_debian_documents(hyperex program)
   install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex COMPONENT program)

@@ -198,8 +198,10 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
       std::make_shared<const simulate::LipSurfaces>(session.mesh(), session.inputs().landmarks);
   rig.performance = session.simulation().performance;
   close_eyes(rig, session.inputs().landmarks);
-  for (const Note& one :
-       lid_doubts(rig.performance.skin_rest.points, session.inputs().landmarks, rig.shapes))
+  const bool sides_alike = std::ranges::all_of(session.scene().muscles.gains,
+                                               [](const auto& gain) { return gain.gain == 1; });
+  for (const Note& one : lid_doubts(rig.performance.skin_rest.points, session.inputs().landmarks,
+                                    rig.shapes, sides_alike))
     told(one);
   return rig;
 }

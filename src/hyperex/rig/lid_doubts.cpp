@@ -71,13 +71,13 @@ struct Doubt {
 };
 
 std::optional<Doubt> doubt_of(const report::RigShape& shape, const report::RigShape& mirror,
-                              const LidSkin& own, const LidSkin& other) {
+                              const LidSkin& own, const LidSkin& other, bool sides_alike) {
   const double by_m = farthest_m(shape, own.vertices);
   const double points_m = farthest_m(shape, own.at_landmarks);
   const double other_m = farthest_m(mirror, other.vertices);
   const bool beyond_points = by_m > kMostOfPoints * points_m && by_m > points_m + kLeast_m;
-  const bool beyond_other =
-      other_m > kStill_m && by_m > kMostOfOther * other_m && by_m > other_m + kLeast_m;
+  const bool beyond_other = sides_alike && other_m > kStill_m && by_m > kMostOfOther * other_m &&
+                            by_m > other_m + kLeast_m;
   if (!beyond_points && !beyond_other) return {};
   return Doubt{by_m,
                fmt::format("{} by {:.1f} mm (landmarks there by {:.1f}, {} by {:.1f})", shape.name,
@@ -100,7 +100,7 @@ Note note_of(const char* eye, std::vector<Doubt> doubts) {
 }  // namespace
 
 std::vector<Note> lid_doubts(const Points& skin, const io::Landmarks& landmarks,
-                             const std::vector<report::RigShape>& shapes) {
+                             const std::vector<report::RigShape>& shapes, bool sides_alike) {
   const auto right = lid_skin(skin, landmarks, 36), left = lid_skin(skin, landmarks, 42);
   if (!right || !left) return {};
   std::vector<Note> notes;
@@ -109,7 +109,8 @@ std::vector<Note> lid_doubts(const Points& skin, const io::Landmarks& landmarks,
     std::vector<Doubt> doubts;
     for (const report::RigShape& shape : shapes)
       if (const report::RigShape* mirror = mirrored(shape, side, other_side, shapes))
-        if (auto doubt = doubt_of(shape, *mirror, own, other)) doubts.push_back(std::move(*doubt));
+        if (auto doubt = doubt_of(shape, *mirror, own, other, sides_alike))
+          doubts.push_back(std::move(*doubt));
     if (!doubts.empty()) notes.push_back(note_of(eye, std::move(doubts)));
   };
   look_at("right", "Right", "Left", *right, *left);

@@ -81,6 +81,15 @@ TEST_F(LidDoubts, NameALidThatMovesFartherThanTheOther) {
   EXPECT_TRUE(lid_doubts(skin_, landmarks_, shapes_).empty()) << "nothing to compare with";
 }
 
+/// A weak lid moves less; the healthy one is not torn.
+TEST_F(LidDoubts, DoNotCompareSidesWhoseMusclesAreChanged) {
+  shapes_[1].displacement_m *= 2.5;
+  EXPECT_EQ(lid_doubts(skin_, landmarks_, shapes_, true).size(), 1u);
+  EXPECT_TRUE(lid_doubts(skin_, landmarks_, shapes_, false).empty());
+  lift_one(1, kEye_m, 0.025);
+  EXPECT_EQ(lid_doubts(skin_, landmarks_, shapes_, false).size(), 1u) << "torn all the same";
+}
+
 TEST_F(LidDoubts, NeedTheEyes) {
   lift_one(1, kEye_m, 0.0125);
   landmarks_.erase(face::ibug(40));
