@@ -69,7 +69,9 @@ constexpr NoteKind kKinds[] = {
     "recording, or for 0.2 to 0.3 s. Below 24 Hz one reading counts that jumps by more, in "
     "proportion. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
-    "No point moves 0.05 mm from its first place, head motion removed."),
+    "No point moves 0.05 mm from its first place, head motion removed. In a recording with jitter: "
+    "smoothed, no point moves farther than jitter alone makes the farthest of all go, and none 3 "
+    "mm."),
   warning("recording.starts_in_expression", "motion.rest_s",
     "The face is nearer to rest later than at the start, and displacements count from the start."),
   warning("recording.ends_in_expression", "motion.file",

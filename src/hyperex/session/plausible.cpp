@@ -318,28 +318,6 @@ std::optional<Note> short_warning(const std::vector<double>& time_s, Readings re
                   time_s.size(), time_s.back() - time_s.front(), least));
 }
 
-std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn) {
-  constexpr double least_m = 0.05e-3;
-  double most_m = 0;
-  for (const Points& sample : stabilised.positions)
-    for (Eigen::Index i = 0; i < sample.rows(); ++i)
-      if (const double moved = (sample.row(i) - stabilised.positions.front().row(i)).norm();
-          moved > most_m)
-        most_m = moved;
-  if (stabilised.positions.size() < 2 || most_m >= least_m) return std::nullopt;
-  if (eyes_turn)
-    return make_warning(
-        "recording.nothing_moves",
-        "nothing moves in the recording but the eyes, which turn: no other shape of "
-        "this face has a weight, and so its skin stays at rest");
-  return make_warning(
-      "recording.nothing_moves",
-      fmt::format(
-          "nothing moves in the recording: no point goes farther than {:.3f} mm from its first "
-          "place (expected: {:g} mm or more); check its unit, and that it is the right one",
-          1e3 * most_m, 1e3 * least_m));
-}
-
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
   const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
   if (pairs.surely.empty()) return;

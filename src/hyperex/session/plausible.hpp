@@ -7,6 +7,7 @@
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/misplaced_points.hpp"
 #include "hyperex/session/reading_warnings.hpp"
+#include "hyperex/session/stillness.hpp"
 
 namespace hyperex::session {
 
@@ -80,10 +81,6 @@ std::optional<Note> coarse_warning(const motion::Motion& m, Readings readings = 
 /// recording of one is no motion.
 std::optional<Note> short_warning(const std::vector<double>& time_s,
                                   Readings readings = Readings::measured);
-
-/// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
-/// `eyes_turn`: the recording has the gaze.
-std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
 
 /// Throws InputError where single pairs of points (face::mirrored_landmark) have their names
 /// exchanged in the first sample. The vector between the points of such a pair is opposite to the
