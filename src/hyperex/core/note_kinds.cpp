@@ -114,7 +114,8 @@ constexpr NoteKind kKinds[] = {
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points lie the other way round than on the face, by less than half of their "
     "distance there. Where they do by more, or most pairs do, the recording is refused. Where an "
-    "exchange would not bring both points nearer to their places, it says how far a point is off."),
+    "exchange would not bring both points nearer to their places, it says how far a point is off. "
+    "Where pairs contradict each other, and those that fit are not more, it names both kinds."),
   warning("anatomy.ct_fits_badly", "anatomy.ct",
     "The skin of the CT is more than 1.5 mm (median) from the scan after it was laid on it."),
   warning("anatomy.bone_outside", "anatomy.skull",

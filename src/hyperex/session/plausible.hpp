@@ -30,7 +30,8 @@ FaceAtRest average_face();
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.doubtful`: the same fit is more than 5 mm and, with the points mirrored, less than 0.7 of
-/// that, but check_sides does not refuse it. Nothing where it does.
+/// that, but check_sides does not refuse it. Nothing where it does, and where pairs contradict each
+/// other (exchanged_warning).
 std::optional<Note> sides_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Whose points a recording has.
@@ -86,12 +87,15 @@ std::optional<Note> short_warning(const std::vector<double>& time_s,
 /// exchanged in the first sample. The vector between the points of such a pair is opposite to the
 /// same vector on the face, after a similarity fitted to the common points, by more than half of
 /// its length, and exchanging the two would bring both nearer to their places. Nothing where at
-/// least half of the pairs are opposite (check_sides reports that).
+/// least half of the pairs are opposite (check_sides and exchanged_warning report that).
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
 /// that are set wrongly. check_pairs comes before it. Where no pair is exchanged but a vector is
 /// opposite, one of its points lies elsewhere: this is said unless misplaced_points() finds points.
+/// Where at least half of the pairs are opposite and another is not, the pairs contradict each
+/// other: it names both kinds, and which to exchange where one exchange fits twice as well as the
+/// other.
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before
