@@ -69,7 +69,9 @@ constexpr NoteKind kKinds[] = {
     "recording, or for 0.2 to 0.3 s. Below 24 Hz one reading counts that jumps by more, in "
     "proportion. The readings were kept."),
   warning("recording.nothing_moves", "motion.unit",
-    "No point moves 0.05 mm from its first place, head motion removed."),
+    "No point moves 0.05 mm from its first place, head motion removed. In a recording with jitter: "
+    "smoothed, no point moves farther than jitter alone makes the farthest of all go, and none 3 "
+    "mm."),
   warning("recording.starts_in_expression", "motion.rest_s",
     "The face is nearer to rest later than at the start, and displacements count from the start."),
   warning("recording.ends_in_expression", "motion.file",
@@ -112,7 +114,8 @@ constexpr NoteKind kKinds[] = {
   warning("sides.exchanged_pair", "motion.file",
     "Single pairs of points lie the other way round than on the face, by less than half of their "
     "distance there. Where they do by more, or most pairs do, the recording is refused. Where an "
-    "exchange would not bring both points nearer to their places, it says how far a point is off."),
+    "exchange would not bring both points nearer to their places, it says how far a point is off. "
+    "Where pairs contradict each other, and those that fit are not more, it names both kinds."),
   warning("anatomy.ct_fits_badly", "anatomy.ct",
     "The skin of the CT is more than 1.5 mm (median) from the scan after it was laid on it."),
   warning("anatomy.bone_outside", "anatomy.skull",

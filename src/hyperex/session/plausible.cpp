@@ -95,7 +95,7 @@ std::string pair_in_words(const std::string& name, const std::string& other) {
   return name + " and " + other + (known ? " " + words.substr(from, to - from) + ")" : "");
 }
 
-/// Pairs of points whose vector is opposite to that on the face.
+/// Pairs of points whose vector is opposite to that on the face, and the others.
 struct ExchangedPairs {
   std::vector<std::string> surely;   ///< by more than half of its length there
   std::vector<std::string> perhaps;  ///< by less
@@ -105,6 +105,11 @@ struct ExchangedPairs {
   };
   /// Their exchange would not bring both nearer to their places: a point is wrong in another way.
   std::vector<Other> others;
+  using Names = std::vector<std::array<std::string, 2>>;
+  Names opposite, right;  ///< the former are surely or perhaps exchanged
+
+  /// Opposite ones are fewer than right ones, so that the fit lies on the side of these.
+  bool are_few() const { return opposite.size() + others.size() < right.size(); }
 };
 
 /// How far both points of a pair are from these places, m.
@@ -113,8 +118,7 @@ std::array<double, 2> off_places(const std::array<Vec3, 2>& points,
   return {(points[0] - places[0]).norm(), (points[1] - places[1]).norm()};
 }
 
-/// None where at least half of the pairs are exchanged.
-ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
+ExchangedPairs pairs_by_place(const motion::Motion& stabilised, const FaceAtRest& face) {
   const auto [names, recorded, scanned] = simulate::common_points(stabilised, face.landmarks);
   if (recorded.rows() < 4 || spread_off_line(scanned) < 0.05) return {};
   const Similarity recording_from_face = fit_similarity(scanned, recorded);
@@ -122,7 +126,6 @@ ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRes
     return stabilised.positions.front().row(stabilised.index_of(name)).transpose();
   };
   ExchangedPairs pairs;
-  std::size_t right = 0;
   for (const std::string& name : stabilised.names) {
     const std::string other = face::mirrored_landmark(name);
     const auto here = face.landmarks.find(name), there = face.landmarks.find(other);
@@ -136,6 +139,10 @@ ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRes
     const double along = (at[1] - at[0]).dot(expected);
     const auto off_m = off_places(at, places), off_exchanged_m = off_places({at[1], at[0]}, places);
     const bool both_nearer = off_exchanged_m[0] < off_m[1] && off_exchanged_m[1] < off_m[0];
+    if (along >= 0)
+      pairs.right.push_back({name, other});
+    else if (both_nearer)
+      pairs.opposite.push_back({name, other});
     if (along < 0 && !both_nearer)
       pairs.others.push_back({pair_in_words(name, other), off_m[0] > off_m[1] ? name : other,
                               std::max(off_m[0], off_m[1]) / recording_from_face.scale});
@@ -143,11 +150,55 @@ ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRes
       pairs.surely.push_back(pair_in_words(name, other));
     else if (along < 0)
       pairs.perhaps.push_back(pair_in_words(name, other));
-    else
-      ++right;
   }
-  if (pairs.surely.size() + pairs.perhaps.size() + pairs.others.size() >= right) return {};
   return pairs;
+}
+
+/// None where at least half of the pairs are exchanged.
+ExchangedPairs exchanged_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
+  ExchangedPairs pairs = pairs_by_place(stabilised, face);
+  return pairs.are_few() ? pairs : ExchangedPairs{};
+}
+
+std::string pairs_in_words(const ExchangedPairs::Names& pairs) {
+  std::vector<std::string> words;
+  for (const auto& [name, other] : pairs) words.push_back(pair_in_words(name, other));
+  return fmt::format("{}", fmt::join(words, "; "));
+}
+
+/// The misfit with the names of these pairs exchanged, m.
+double misfit_exchanged_m(const motion::Motion& stabilised, const FaceAtRest& face,
+                          const ExchangedPairs::Names& pairs) {
+  motion::Motion exchanged;
+  exchanged.names = stabilised.names;
+  exchanged.time_s = {0};
+  exchanged.positions = {stabilised.positions.front()};
+  for (const auto& [name, other] : pairs)
+    std::swap(exchanged.names[std::size_t(stabilised.index_of(name))],
+              exchanged.names[std::size_t(stabilised.index_of(other))]);
+  const auto fit = fit_of_sides(exchanged, face);
+  return fit ? fit->as_is_m : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// Pairs of which neither those that are opposite nor the others are a majority that the fit
+/// follows. Which of them are wrong is said where the exchange of these fits far better.
+std::optional<Note> contradiction_warning(const motion::Motion& stabilised,
+                                          const FaceAtRest& face) {
+  const ExchangedPairs pairs = pairs_by_place(stabilised, face);
+  if (pairs.are_few() || pairs.opposite.empty() || pairs.right.empty()) return std::nullopt;
+  const double opposite_m = misfit_exchanged_m(stabilised, face, pairs.opposite),
+               right_m = misfit_exchanged_m(stabilised, face, pairs.right);
+  const double nearer_m = std::min(opposite_m, right_m);
+  std::string which = "left and right cannot be told; correct the names";
+  if (nearer_m < kMirroredShare * std::max(opposite_m, right_m))
+    which = fmt::format(
+        "exchange the names of {}, after which the points are {:.1f} mm rms from their places",
+        pairs_in_words(opposite_m < right_m ? pairs.opposite : pairs.right), 1e3 * nearer_m);
+  return make_warning(
+      "sides.exchanged_pair",
+      fmt::format("pairs of points contradict each other about left and right: {} lie the other "
+                  "way round than on {}, {} do not; {} (L and R are the subject's own sides)",
+                  pairs_in_words(pairs.opposite), face.whose, pairs_in_words(pairs.right), which));
 }
 
 /// `advice`: what to do, given the stretch that looks most like rest.
@@ -194,7 +245,7 @@ void check_sides(const motion::Motion& stabilised, const FaceAtRest& face) {
 std::optional<Note> sides_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
   const auto fit = fit_of_sides(stabilised, face);
   if (!fit || are_exchanged(*fit) || fit->as_is_m <= kDoubtfulRms_m ||
-      fit->mirrored_m >= kDoubtfulShare * fit->as_is_m)
+      fit->mirrored_m >= kDoubtfulShare * fit->as_is_m || contradiction_warning(stabilised, face))
     return std::nullopt;
   return make_warning(
       "sides.doubtful",
@@ -318,28 +369,6 @@ std::optional<Note> short_warning(const std::vector<double>& time_s, Readings re
                   time_s.size(), time_s.back() - time_s.front(), least));
 }
 
-std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn) {
-  constexpr double least_m = 0.05e-3;
-  double most_m = 0;
-  for (const Points& sample : stabilised.positions)
-    for (Eigen::Index i = 0; i < sample.rows(); ++i)
-      if (const double moved = (sample.row(i) - stabilised.positions.front().row(i)).norm();
-          moved > most_m)
-        most_m = moved;
-  if (stabilised.positions.size() < 2 || most_m >= least_m) return std::nullopt;
-  if (eyes_turn)
-    return make_warning(
-        "recording.nothing_moves",
-        "nothing moves in the recording but the eyes, which turn: no other shape of "
-        "this face has a weight, and so its skin stays at rest");
-  return make_warning(
-      "recording.nothing_moves",
-      fmt::format(
-          "nothing moves in the recording: no point goes farther than {:.3f} mm from its first "
-          "place (expected: {:g} mm or more); check its unit, and that it is the right one",
-          1e3 * most_m, 1e3 * least_m));
-}
-
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
   const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
   if (pairs.surely.empty()) return;
@@ -352,6 +381,7 @@ void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face) {
 }
 
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face) {
+  if (auto contradiction = contradiction_warning(stabilised, face)) return contradiction;
   const ExchangedPairs pairs = exchanged_pairs(stabilised, face);
   if (!pairs.perhaps.empty())
     return make_warning(

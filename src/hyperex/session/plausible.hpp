@@ -7,6 +7,7 @@
 #include "hyperex/session/inputs.hpp"
 #include "hyperex/session/misplaced_points.hpp"
 #include "hyperex/session/reading_warnings.hpp"
+#include "hyperex/session/stillness.hpp"
 
 namespace hyperex::session {
 
@@ -29,7 +30,8 @@ FaceAtRest average_face();
 void check_sides(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.doubtful`: the same fit is more than 5 mm and, with the points mirrored, less than 0.7 of
-/// that, but check_sides does not refuse it. Nothing where it does.
+/// that, but check_sides does not refuse it. Nothing where it does, and where pairs contradict each
+/// other (exchanged_warning).
 std::optional<Note> sides_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Whose points a recording has.
@@ -81,20 +83,19 @@ std::optional<Note> coarse_warning(const motion::Motion& m, Readings readings = 
 std::optional<Note> short_warning(const std::vector<double>& time_s,
                                   Readings readings = Readings::measured);
 
-/// `recording.nothing_moves`: no point moves 0.05 mm from its first place, without head pose.
-/// `eyes_turn`: the recording has the gaze.
-std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
-
 /// Throws InputError where single pairs of points (face::mirrored_landmark) have their names
 /// exchanged in the first sample. The vector between the points of such a pair is opposite to the
 /// same vector on the face, after a similarity fitted to the common points, by more than half of
 /// its length, and exchanging the two would bring both nearer to their places. Nothing where at
-/// least half of the pairs are opposite (check_sides reports that).
+/// least half of the pairs are opposite (check_sides and exchanged_warning report that).
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
 /// that are set wrongly. check_pairs comes before it. Where no pair is exchanged but a vector is
 /// opposite, one of its points lies elsewhere: this is said unless misplaced_points() finds points.
+/// Where at least half of the pairs are opposite and another is not, the pairs contradict each
+/// other: it names both kinds, and which to exchange where one exchange fits twice as well as the
+/// other.
 std::optional<Note> exchanged_warning(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// Throws InputError where nothing would move: the recording is one sample, or the run ends before

@@ -141,6 +141,17 @@ TEST(CheckAlone, OneExchangedPairAmongOthersIsRefused) {
                     HasSubstr("an average face"), HasSubstr("exchange their names")));
 }
 
+/// The fit follows the pair that is farther apart, whose names are wrong.
+TEST(CheckAlone, PairsThatContradictEachOtherAreAWarning) {
+  motion::Motion m = still_points_of(average_face().landmarks);
+  EXPECT_EQ(exchanged_warning(m, average_face()), std::nullopt);
+  std::swap(m.names[0], m.names[1]);  // the corners of the mouth
+  EXPECT_THAT(check_alone(m),
+              ElementsAre(AllOf(is_warning("sides.exchanged_pair"), is_about("motion.file"),
+                                says("contradict each other"),
+                                says("exchange the names of ibug68_48 and ibug68_54 (corner"))));
+}
+
 /// By the place of the face's origin the two corners lie the other way round, or hardly so.
 TEST(CheckAlone, APointWithTwoAxesExchangedIsNotCalledTheOtherSide) {
   for (const double up_m : {0.0, -0.03}) {

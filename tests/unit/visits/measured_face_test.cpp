@@ -219,6 +219,16 @@ TEST(MeasuredFace, ARecordingInWhichNothingMovesIsDoubted) {
   EXPECT_THAT(doubts(0.1), testing::IsEmpty());
 }
 
+TEST(MeasuredFace, NoiseDoesNotHideThatNothingMoves) {
+  const auto doubts = [](double share) {
+    const motion::Motion smile =
+        recording_of({.right = share, .left = share, .noise_m = 2e-4, .head_moves = true});
+    return measure(smile, visits_of(1), std::nullopt, nullptr).extent_doubts;
+  };
+  EXPECT_THAT(doubts(0), testing::ElementsAre(HasSubstr("beyond its jitter of 0.")));
+  EXPECT_THAT(doubts(0.2), testing::IsEmpty());
+}
+
 /// A recording in which the smile is held throughout shows no movement. Only its rest shows why.
 TEST(MeasuredFace, CornersElsewhereAtRestAreDoubted) {
   const MeasuredFace first = exact({});
