@@ -63,7 +63,7 @@ function measure([key, words, unit, size], side, visits, k) {
       const { value, low, high } = around(at(i) - at(0), 1.4 * half);
       return {
         value, low, high, low_measured: round(value - half / 2), high_measured: round(value + half / 2),
-        beyond: beyond(value), largest: ['repetition', 'jitter', 'head pose', 'axes'][k % 4],
+        beyond: beyond(value), doubtful: false, largest: ['repetition', 'jitter', 'head pose', 'axes'][k % 4],
       };
     }),
   };

@@ -48,6 +48,16 @@ test('what all intervals come from is said once', { skip: Boolean(given) }, asyn
   await close();
 });
 
+test('a change that is doubtful is no plain yes', { skip: Boolean(given) }, async () => {
+  const visits = madeUpVisits(2);
+  for (const { changes } of visits.measures) for (const change of changes) if (change) change.doubtful = true;
+  const { page, close } = await openVisits(visits);
+  assert.deepEqual((await rowsOf(page))[0].slice(-2), ['yes, doubtful', 'tracking jitter']);
+  assert.equal(await page.locator('tr.beyond').count(), 0, 'none stands out');
+  assert.match(await page.locator('#explained').textContent(), /Doubtful: something/);
+  await close();
+});
+
 test('the verdict is in sight where the table is scrolled', { skip: Boolean(given) }, async () => {
   const { page, close } = await openVisits(madeUpVisits(5), { viewport: { width: 768, height: 900 } });
   const [box, cell] = await Promise.all(['.table-box', 'td.verdict >> nth=0'].map((place) => page.locator(place).boundingBox()));

@@ -48,6 +48,8 @@ export interface Change {
   low_measured: number | null;
   high_measured: number | null;
   beyond: Beyond;
+  /** Whether something doubts the figures of this or of the first visit. */
+  doubtful: boolean;
   /** The largest part of the interval. */
   largest: Part;
 }
