@@ -168,13 +168,6 @@ json repetition_json(const Comparison& comparison) {
           {"text", repetition_sentence(comparison)}};
 }
 
-/// What stands below the table. Doubts stand beside the headline.
-std::vector<std::string> notes_of_page(const Comparison& comparison) {
-  std::vector<std::string> all = choices(comparison);
-  for (const std::string& remark : remarks(comparison)) all.push_back(remark);
-  return all;
-}
-
 }  // namespace
 
 void write_visits_page(const std::filesystem::path& file, const Comparison& comparison) {
@@ -189,7 +182,8 @@ void write_visits_page(const std::filesystem::path& file, const Comparison& comp
       {"curves", curves_json(comparison)},
       {"measures", measures_json(comparison)},
       {"summary", summary(comparison)},
-      {"notes", notes_of_page(comparison)},
+      {"notes", remarks(comparison)},
+      {"choices", choices(comparison)},
       {"caveat",
        "Hyperex is research software, no medical device: these figures are not for diagnosis or "
        "treatment."}};

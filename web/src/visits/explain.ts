@@ -22,7 +22,7 @@ const changeWords = (count: number): (string | HTMLElement)[] => [
 
 const isDoubted = (measures: Measure[]): boolean => measures.some(({ changes }) => changes.some((change) => change?.doubtful));
 
-export function explain(host: HTMLElement, { visits, repetition, peak_by, measures }: Manifest): void {
+export function explain(host: HTMLElement, { visits, repetition, peak_by, measures, choices }: Manifest): void {
   const how = element('p');
   how.append(
     `Each visit’s column has the value at the peak (by the ${peak_by}) and in brackets its 95 % interval by measurement alone. `,
@@ -36,5 +36,5 @@ export function explain(host: HTMLElement, { visits, repetition, peak_by, measur
     item.append(element('b', visit.label), ` ${recordedWords(visit)}`);
     list.append(item);
   }
-  host.append(element('p', repetition.text), how, element('h2', 'What was recorded'), list);
+  host.append(element('p', repetition.text), how, ...choices.map((choice) => element('p', choice, 'choice')), element('h2', 'What was recorded'), list);
 }

@@ -78,6 +78,9 @@ export interface Manifest {
   curves: VisitCurve[];
   measures: Measure[];
   summary: string[];
+  /** Remarks, which stand out. */
   notes: string[];
+  /** What was chosen where the file leaves it open, as the points that hold the head. */
+  choices: string[];
   caveat: string;
 }
