@@ -204,10 +204,11 @@ void report_whose_sides(const fs::path& run) {
         printable(run.filename().string()));
 }
 
-/// Writes the requested files and prints the remaining results. `run`: as above.
+/// Writes the requested files and prints the remaining results. `run`: as above. `doubtful`:
+/// whether a warning doubts the figures.
 void report(const SymmetryOptions& options, const fs::path& run,
             const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
-            const motion::StabilisedMotion& steady) {
+            const motion::StabilisedMotion& steady, bool doubtful) {
   for (const std::string& stand_in : all.curve.stand_ins)
     std::cerr << "stand-in for " << stand_in << '\n';
   const std::string whose = run.empty() ? options.motion.filename().string()
@@ -218,11 +219,11 @@ void report(const SymmetryOptions& options, const fs::path& run,
     metrics::write_excursions_csv(options.excursions, all.excursions);
   if (!options.out.empty()) metrics::write_symmetry_csv(options.out, all);
   report_whose_sides(run);
-  std::cout << run::corners_line(all.excursions);
+  std::cout << run::corners_line(all.excursions, doubtful);
   if (options.out.empty() && all.curve.known()) print_curve(all.curve);
   print_excursions(all.excursions);
   print_head_uncertainty(steady, jitter);
-  print_summary(all, jitter);
+  print_summary(all, jitter, doubtful);
 }
 
 /// The excursions, judged by jitter, the head's pose and repetition. Points of a rig have a still
@@ -258,7 +259,7 @@ void run_surfaces(const SymmetryOptions& options, std::optional<io::LengthUnit> 
       metrics::asymmetry_of(metrics::rest_asymmetry(frames.rest, frames.landmarks), displacement);
   if (!all.map->plane.note.empty()) std::cerr << all.map->plane.note << '\n';
   write_map(options, frames, displacement, *all.map);
-  report(options, {}, all, jitter, stabilised);
+  report(options, {}, all, jitter, stabilised, false);
 }
 
 /// Throws InputError for points that hold the head's pose where it is not estimated.
@@ -372,7 +373,8 @@ void run(const SymmetryOptions& options) {
     all.curve = metrics::symmetry_of(motion, options.output.symmetry_floor, jitter.jitter_m);
   all.excursions = judged_excursions(options, stabilised, jitter);
   const fs::path simulated = options.rig.empty() ? run_that_wrote(file) : fs::path();
-  report(options, simulated, all, jitter, stabilised);
+  report(options, simulated, all, jitter, stabilised,
+         std::ranges::any_of(warnings, session::doubts_figures));
 }
 
 /// Options that concern a folder of surfaces.

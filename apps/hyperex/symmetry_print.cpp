@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "hyperex/face/point_words.hpp"
+#include "hyperex/run/corner_words.hpp"
 
 namespace hyperex::cli {
 namespace {
@@ -143,7 +144,8 @@ void print_head_uncertainty(const motion::StabilisedMotion& steady,
                  "uncertainty is not known\n";
 }
 
-void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter) {
+void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
+                   bool doubtful) {
   const metrics::SymmetryCurve& curve = all.curve;
   size_t undecided = 0;
   for (size_t i = 1; i < curve.time_s.size(); ++i) undecided += curve.undecided(i);
@@ -152,7 +154,7 @@ void print_summary(const metrics::SymmetryMeasures& all, const session::Recorded
   if (curve.jitter_m > 0)
     std::cout << fmt::format("; jitter {:.2f} mm leaves {} of {} samples undecided",
                              1e3 * curve.jitter_m, undecided, curve.time_s.size() - 1);
-  if (curve.known()) std::cout << '\n';
+  if (curve.known()) std::cout << (doubtful ? run::kDoubtfulEnding : "") << '\n';
   if (jitter.known) std::cout << jitter.how << '\n';  // else a warning has said it
   if (all.map && !all.map->frames.empty()) {
     const auto& worst = all.map->frames[static_cast<size_t>(all.map->worst_frame)];

@@ -17,6 +17,8 @@ void print_excursions(const metrics::Excursions& excursions);
 void print_head_uncertainty(const motion::StabilisedMotion& steady,
                             const session::RecordedJitter& jitter);
 /// The verdict, the jitter it rests on, and the asymmetry of the surface where there is a map.
-void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter);
+/// `doubtful`: as of run::corners_line.
+void print_summary(const metrics::SymmetryMeasures& all, const session::RecordedJitter& jitter,
+                   bool doubtful);
 
 }  // namespace hyperex::cli

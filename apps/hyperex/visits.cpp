@@ -33,7 +33,7 @@ void check_outputs_of(const VisitsOptions& options, const visits::VisitsFile& fi
   }
   check_outputs({options.out, options.table}, inputs);
   check_output_kinds({{options.out, {".html"}, "<!doctype html>", {"<title>Hyperex visits"}},
-                      {options.table, {".csv"}, visits::kTableHeader}});
+                      {options.table, {".csv"}, visits::kTableBegins}});
 }
 
 std::string cell(const visits::VisitValue& value) {
@@ -65,9 +65,9 @@ void print_table(const visits::Comparison& comparison) {
     std::cout << fmt::format("{:<56} {:>16}", name, text(one.values.front()));
     if (several) std::cout << fmt::format(" {:>16}", text(one.values.back()));
     if (const auto& change = one.changes.back())
-      std::cout << fmt::format(" {:>10} {:>18}  {}",
-                               visits::signed_figure(change->value, visits::digits_of(*change)),
-                               interval(*change), words_of(change->beyond));
+      std::cout << fmt::format(
+          " {:>10} {:>18}  {}", visits::signed_figure(change->value, visits::digits_of(*change)),
+          interval(*change), verdict_words(comparison, one, entries.size() - 1));
     else if (one.values.front() && one.values.back() && several)
       std::cout << fmt::format(" {:>12}", "not compared");
     std::cout << '\n';

@@ -101,6 +101,15 @@ void write_points(ComparedRecording& recording, const std::vector<std::string>& 
   motion::write_motion_csv(recording.visit.recordings.front(), recording.points);
 }
 
+/// The page itself, or one beside it with a number where that is there: "visits-smile-2.html". A
+/// page of an earlier comparison may be all that is left of it.
+fs::path free_page(const fs::path& wanted) {
+  fs::path page = wanted;
+  for (int n = 2; fs::exists(fs::symlink_status(page)); ++n)
+    page = wanted.parent_path() / fmt::format("{}-{}.html", wanted.stem().string(), n);
+  return page;
+}
+
 }  // namespace
 
 std::string Session::earlier_recording() const {
@@ -124,7 +133,7 @@ json Session::compare_visits(const json& fields) {
   if (!expression)
     throw InputError(
         "expression: expected smile, show teeth, pucker, mouth open, brow raise or eye closure");
-  const fs::path path = require_own(options_.save_into / (name + ".html"));
+  const fs::path path = free_page(require_own(options_.save_into / (name + ".html")));
   report_progress("comparing two recordings");
   visits::VisitsFile file;
   file.file = now_.file;

@@ -232,12 +232,15 @@ TEST_F(Plausible, SymmetrySaysTheUnitItGuessedAndWhatNoFaceMeasures) {
   };
   const std::string symmetry = "symmetry motion.csv --jitter-mm 0";
   scaled(1);
-  const std::string sound = call(symmetry).err;
-  EXPECT_THAT(sound, AllOf(Not(HasSubstr("guessed")), Not(HasSubstr("size of a face"))));
+  const Outcome sound = call(symmetry);
+  EXPECT_THAT(sound.err, AllOf(Not(HasSubstr("guessed")), Not(HasSubstr("size of a face"))));
+  EXPECT_THAT(sound.out, Not(HasSubstr("doubtful")));
   scaled(0.1);
-  EXPECT_THAT(call(symmetry).err,
-              AllOf(HasSubstr("warning: the recording has not the size of a face"),
-                    HasSubstr("as if in cm, and were read as mm")));
+  const Outcome small = call(symmetry);
+  EXPECT_THAT(small.err, AllOf(HasSubstr("warning: the recording has not the size of a face"),
+                               HasSubstr("as if in cm, and were read as mm")));
+  EXPECT_THAT(small.out,
+              ContainsRegex("a difference of [^\n]*; doubtful, see the warning above\n"));
   scaled(1 / 25.4);  // inches, without a unit in the names
   std::string table = read_file(in("motion.csv"));
   for (auto at = table.find("_mm"); at != std::string::npos; at = table.find("_mm"))
@@ -257,6 +260,7 @@ TEST_F(Plausible, SymmetrySaysThatNothingMovesAsCheckDoes) {
   EXPECT_THAT(call(kCheckFine).out, HasSubstr(still));
   for (const std::string keep : {"", " --keep-head"})
     EXPECT_THAT(call("symmetry motion.csv" + keep).err, HasSubstr(still));
+  EXPECT_THAT(call("symmetry motion.csv").out, HasSubstr("; doubtful, see the warning above\n"));
 }
 
 TEST_F(Plausible, SymmetryRefusesExchangedSidesAsCheckDoes) {

@@ -226,6 +226,7 @@ TEST_F(Visits, SayAtWhichVisitARecordingEndsInTheExpression) {
   const std::string words = "2026-06-01 (after.csv): the recording ends in an expression";
   EXPECT_THAT(outcome.err, HasSubstr(words));
   EXPECT_THAT(outcome.out, testing::AllOf(HasSubstr("; doubtful, as said below."),
+                                          HasSubstr(", doubtful\n"),  // in the table
                                           HasSubstr("\nDoubtful: " + words)));
   EXPECT_THAT(read_file(in("v.html")), HasSubstr(words));
 }

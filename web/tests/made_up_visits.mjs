@@ -63,7 +63,7 @@ function measure([key, words, unit, size], side, visits, k) {
       const { value, low, high } = around(at(i) - at(0), 1.4 * half);
       return {
         value, low, high, low_measured: round(value - half / 2), high_measured: round(value + half / 2),
-        beyond: beyond(value), largest: ['repetition', 'jitter', 'head pose', 'axes'][k % 4],
+        beyond: beyond(value), doubtful: false, largest: ['repetition', 'jitter', 'head pose', 'axes'][k % 4],
       };
     }),
   };
@@ -102,6 +102,7 @@ export function madeUpVisits(count) {
       ? ['The right corner of the mouth goes 2.4 mm farther than at the first visit (95 %: 1.6 to 3.2 mm): beyond what measurement and repetition make.',
          'The left corner has not changed: 0.0 mm (95 %: −0.8 to 0.8 mm).']
       : ['The right corner of the mouth goes 4.8 mm, the left 8.0 mm.'],
+    choices: ['the head is held by head_1, head_2 and head_3, which keep still against each other.'],
     notes: ['smile_2a.csv: its tracking jitter is not known, as the file was smoothed.', 'The visits were recorded with different cameras.'],
     caveat: 'Hyperex is research software, no medical device: these figures are not for diagnosis or treatment.',
   };

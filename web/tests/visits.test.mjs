@@ -48,6 +48,36 @@ test('what all intervals come from is said once', { skip: Boolean(given) }, asyn
   await close();
 });
 
+test('heads of columns break between words alone', { skip: Boolean(given) }, async () => {
+  for (const width of [360, 768, 1100]) {
+    const { page, close } = await openVisits(madeUpVisits(2), { viewport: { width, height: 900 } });
+    const broken = await page.locator('.table-box thead th').evaluateAll((heads) => heads.flatMap((cell) => {
+      const walker = document.createTreeWalker(cell, NodeFilter.SHOW_TEXT);
+      const found = [];
+      while (walker.nextNode())
+        for (const { 0: word, index } of walker.currentNode.data.matchAll(/\p{L}+/gu)) {
+          const range = document.createRange();
+          range.setStart(walker.currentNode, index);
+          range.setEnd(walker.currentNode, index + word.length);
+          if (range.getClientRects().length > 1) found.push(word);
+        }
+      return found;
+    }));
+    assert.deepEqual(broken, [], `${width} px`);
+    await close();
+  }
+});
+
+test('a change that is doubtful is no plain yes', { skip: Boolean(given) }, async () => {
+  const visits = madeUpVisits(2);
+  for (const { changes } of visits.measures) for (const change of changes) if (change) change.doubtful = true;
+  const { page, close } = await openVisits(visits);
+  assert.deepEqual((await rowsOf(page))[0].slice(-2), ['yes, doubtful', 'tracking jitter']);
+  assert.equal(await page.locator('tr.beyond').count(), 0, 'none stands out');
+  assert.match(await page.locator('#explained').textContent(), /Doubtful: something/);
+  await close();
+});
+
 test('the verdict is in sight where the table is scrolled', { skip: Boolean(given) }, async () => {
   const { page, close } = await openVisits(madeUpVisits(5), { viewport: { width: 768, height: 900 } });
   const [box, cell] = await Promise.all(['.table-box', 'td.verdict >> nth=0'].map((place) => page.locator(place).boundingBox()));
@@ -126,6 +156,7 @@ describe('two visits', { skip: Boolean(given) }, () => {
     assert.deepEqual(await page.locator('.face img').evaluateAll((all) => all.map(({ alt, naturalWidth }) => [alt, naturalWidth])), [
       ['The face at the peak of the smile, 2026-03-01', 180], ['The face at the peak of the smile, 2026-04-12', 180]]);
     assert.deepEqual(await page.locator('#notes li').allTextContents(), madeUpVisits(2).notes);
+    assert.deepEqual(await page.locator('#explained .choice').allTextContents(), madeUpVisits(2).choices);
     const words = await page.locator('#explained').textContent();
     assert.ok(words.includes(madeUpVisits(2).repetition.text) && words.includes('by the corners of the mouth'), words);
     assert.match(words, /2026-04-12 smile_2a\.csv, smile_2b\.csv; peak at 1\.33 s; .*tracking jitter not known/);

@@ -292,9 +292,11 @@ std::string corners_line(const Json& summary) {
              : "";
 }
 
-std::string corners_line(const metrics::Excursions& excursions) {
+std::string corners_line(const metrics::Excursions& excursions, bool doubtful) {
   const Json corners = metrics::commissure_json(excursions);
-  return corners.is_null() ? "" : line_of(corners, nullptr);
+  std::string line = corners.is_null() ? "" : line_of(corners, nullptr);
+  if (doubtful && !line.empty()) line.insert(line.size() - 1, kDoubtfulEnding);
+  return line;
 }
 
 std::string rescaled_line(const Json& summary) {

@@ -16,8 +16,12 @@ namespace hyperex::run {
 /// summary has an error budget, its interval stands in place of the floor: "a difference of 8.9 mm
 /// (95 %: +- 0.8; mostly jitter)".
 std::string corners_line(const nlohmann::ordered_json& summary);
-/// The same of a recording that was not simulated.
-std::string corners_line(const metrics::Excursions& excursions);
+/// What a sentence on figures ends with where a warning before it doubts them.
+inline constexpr const char* kDoubtfulEnding = "; doubtful, see the warning above";
+
+/// The same of a recording that was not simulated. `doubtful`: whether a warning before the line
+/// doubts its figures (session::doubts_figures). Then it ends with kDoubtfulEnding.
+std::string corners_line(const metrics::Excursions& excursions, bool doubtful = false);
 
 /// One line: that results are in millimetres of the scan, and how the recording's compare. Empty
 /// where both have one size (`recording.rescaled` of the notes).

@@ -135,6 +135,14 @@ std::optional<Note> point_off_warning(const motion::Motion& m) {
   return elsewhere_warning(fullest_sample(m));
 }
 
+bool doubts_figures(const Note& warning) {
+  static const std::vector<std::string> ids = {
+      "sides.doubtful",         "sides.exchanged_pair",           "recording.size_implausible",
+      "recording.point_off",    "recording.starts_in_expression", "recording.ends_in_expression",
+      "recording.nothing_moves"};
+  return std::ranges::count(ids, warning.id) > 0;
+}
+
 std::string guessed_unit(const motion::Motion& m) {
   return m.unit_note.find("(guessed") == std::string::npos ? "" : m.unit_note;
 }

@@ -28,6 +28,11 @@ std::optional<Note> size_warning(const motion::Motion& m);
 /// `recording.point_off` as check_alone() finds it.
 std::optional<Note> point_off_warning(const motion::Motion& m);
 
+/// Whether the very figures of a recording may be wrong where this warning stands: points seem to
+/// be others than their names say, or lengths others than they are, the recording seems to start
+/// or to end in an expression (extent_warnings), or nothing moves (stillness_warning).
+bool doubts_figures(const Note& warning);
+
 /// How the recording's unit was guessed, "cm (guessed: ...)"; empty where the file or its user
 /// states it.
 std::string guessed_unit(const motion::Motion& m);

@@ -340,13 +340,6 @@ void note_size(const MeasuredFace* first, const fs::path& recording, MeasuredFac
       recording.filename().string(), 1e3 * face.eye_distance_m, 1e3 * first->eye_distance_m));
 }
 
-/// Whether points seem to be others than their names say, or lengths others than they are.
-bool doubts_figures(const Note& warning) {
-  static const std::vector<std::string> ids = {"sides.doubtful", "sides.exchanged_pair",
-                                               "recording.size_implausible", "recording.point_off"};
-  return std::ranges::count(ids, warning.id) > 0;
-}
-
 }  // namespace
 
 MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
@@ -414,7 +407,7 @@ MeasuredFace measure_recording(const session::CleanedRecording& recording, const
   for (const std::string& doubt : face.extent_doubts) face.doubts.push_back(of_visit(doubt));
   for (const Note& warning : recording.warnings) {
     const std::string text = with_file_name(warning.text, motion.source);
-    if (doubts_figures(warning))
+    if (session::doubts_figures(warning))
       face.doubts.push_back(of_visit(text));
     else
       face.remarks.push_back(text);

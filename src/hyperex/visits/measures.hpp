@@ -27,7 +27,7 @@ struct Measure {
   std::string side;   ///< "R", "L" or empty
   std::string unit;   ///< "mm", "degrees" or "%"
   /// NaN if a point that it needs is not measured, or if the movement is too small to have a
-  /// direction.
+  /// direction. Empty for a measure of scans.
   std::function<double(const FaceState&)> value;
 };
 

@@ -243,6 +243,19 @@ std::vector<std::string> doubts(const Comparison& comparison) {
   return all;
 }
 
+bool is_doubtful(const Comparison& comparison, const MeasureOverVisits& one, std::size_t visit) {
+  if (!one.measure.value) return false;  // of scans
+  const auto doubted = [](const MeasuredFace& face) { return !face.doubts.empty(); };
+  return std::ranges::any_of(comparison.faces.front(), doubted) ||
+         std::ranges::any_of(comparison.faces[visit], doubted);
+}
+
+std::string verdict_words(const Comparison& comparison, const MeasureOverVisits& one,
+                          std::size_t visit) {
+  return words_of(one.changes[visit]->beyond) +
+         (is_doubtful(comparison, one, visit) ? ", doubtful" : "");
+}
+
 std::vector<std::string> remarks(const Comparison& comparison) {
   std::vector<std::string> all;
   if (!comparison.file.order_remark.empty()) all.push_back(comparison.file.order_remark);

@@ -27,6 +27,15 @@ std::string repetition_sentence(const Comparison& comparison);
 /// once.
 std::vector<std::string> doubts(const Comparison& comparison);
 
+/// Whether the change of a visit from the first is doubtful: a recording of either has doubts.
+/// Measures of scans do not come from a recording, and are not.
+bool is_doubtful(const Comparison& comparison, const MeasureOverVisits& one, std::size_t visit);
+
+/// Whether a change is beyond, as words_of(), with ", doubtful" where is_doubtful(): "yes,
+/// doubtful". For visits with a change.
+std::string verdict_words(const Comparison& comparison, const MeasureOverVisits& one,
+                          std::size_t visit);
+
 /// The remarks on the order of visits and on all recordings, and the doubts of the visits between
 /// the first and the last; each once.
 std::vector<std::string> remarks(const Comparison& comparison);

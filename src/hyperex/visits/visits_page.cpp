@@ -50,7 +50,9 @@ json value_json(const std::optional<VisitValue>& value) {
           {"high", high_of(value->measured)}};
 }
 
-json change_json(const std::optional<Change>& change) {
+/// Of a visit against the first; null where they are not compared.
+json change_json(const Comparison& comparison, const MeasureOverVisits& one, std::size_t visit) {
+  const std::optional<Change>& change = one.changes[visit];
   if (!change) return nullptr;
   return {{"value", exact(change->value)},
           {"low", low_of(change->all)},
@@ -58,6 +60,7 @@ json change_json(const std::optional<Change>& change) {
           {"low_measured", low_of(change->measured)},
           {"high_measured", high_of(change->measured)},
           {"beyond", words_of(change->beyond)},
+          {"doubtful", is_doubtful(comparison, one, visit)},
           {"largest", change->largest}};
 }
 
@@ -66,7 +69,8 @@ json measures_json(const Comparison& comparison) {
   for (const MeasureOverVisits& one : comparison.measures) {
     json values = json::array(), changes = json::array();
     for (const auto& value : one.values) values.push_back(value_json(value));
-    for (const auto& change : one.changes) changes.push_back(change_json(change));
+    for (std::size_t visit = 0; visit < one.changes.size(); ++visit)
+      changes.push_back(change_json(comparison, one, visit));
     all.push_back({{"key", one.measure.key},
                    {"words", one.measure.words},
                    {"side", one.measure.side},
@@ -164,13 +168,6 @@ json repetition_json(const Comparison& comparison) {
           {"text", repetition_sentence(comparison)}};
 }
 
-/// What stands below the table. Doubts stand beside the headline.
-std::vector<std::string> notes_of_page(const Comparison& comparison) {
-  std::vector<std::string> all = choices(comparison);
-  for (const std::string& remark : remarks(comparison)) all.push_back(remark);
-  return all;
-}
-
 }  // namespace
 
 void write_visits_page(const std::filesystem::path& file, const Comparison& comparison) {
@@ -185,7 +182,8 @@ void write_visits_page(const std::filesystem::path& file, const Comparison& comp
       {"curves", curves_json(comparison)},
       {"measures", measures_json(comparison)},
       {"summary", summary(comparison)},
-      {"notes", notes_of_page(comparison)},
+      {"notes", remarks(comparison)},
+      {"choices", choices(comparison)},
       {"caveat",
        "Hyperex is research software, no medical device: these figures are not for diagnosis or "
        "treatment."}};

@@ -7,6 +7,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/csv_cells.hpp"
+#include "hyperex/visits/summary.hpp"
 
 namespace hyperex::visits {
 namespace {
@@ -19,7 +20,8 @@ std::string both(const std::optional<Interval>& interval) {
   return interval ? cell(interval->low) + "," + cell(interval->high) : ",";
 }
 
-std::string row(const MeasureOverVisits& one, std::size_t visit, const std::string& label) {
+std::string row(const Comparison& comparison, const MeasureOverVisits& one, std::size_t visit) {
+  const std::string& label = comparison.file.visits[visit].label;
   const VisitValue& value = *one.values[visit];
   std::string text =
       fmt::format("{},{},{},{},{},{},", io::in_quotes_where_needed(label), one.measure.key,
@@ -29,7 +31,11 @@ std::string row(const MeasureOverVisits& one, std::size_t visit, const std::stri
                         both(change->measured), words_of(change->beyond), change->largest);
   else
     text += ",,,,,,,";
-  return text + std::to_string(value.recordings) + "\n";
+  const bool doubtful = is_doubtful(comparison, one, visit);
+  return text + fmt::format("{},{}\n", value.recordings,
+                            !one.changes[visit] ? ""
+                            : doubtful          ? "yes"
+                                                : "no");
 }
 
 }  // namespace
@@ -39,7 +45,7 @@ void write_visits_table(const std::filesystem::path& file, const Comparison& com
     stream << kTableHeader << '\n';
     for (std::size_t v = 0; v < comparison.file.visits.size(); ++v)
       for (const MeasureOverVisits& one : comparison.measures)
-        if (one.values[v]) stream << row(one, v, comparison.file.visits[v].label);
+        if (one.values[v]) stream << row(comparison, one, v);
   });
 }
 

@@ -329,7 +329,10 @@ TEST(CornerWords, OfARecordingAreThoseOfARun) {
       corners_line(excursions),
       "corners of the mouth: right 9.9 mm, left 4.1 mm, a difference of 5.8 mm: more than the "
       "floor of 0.3 mm (head pose)\n");
+  EXPECT_THAT(corners_line(excursions, true),
+              HasSubstr("floor of 0.3 mm (head pose); doubtful, see the warning above\n"));
   excursions.commissure.left = 2;
+  EXPECT_EQ(corners_line(excursions, true), "");
   EXPECT_EQ(corners_line(excursions), "") << "the pair of other points";
 }
 

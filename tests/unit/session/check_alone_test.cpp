@@ -107,6 +107,15 @@ TEST(CheckAlone, ExchangedNamesOfOneSideAreAWarning) {
   }
 }
 
+TEST(CheckAlone, WarningsThatDoubtTheFiguresAreNotAll) {
+  for (const char* id : {"recording.point_off", "recording.size_implausible", "sides.doubtful",
+                         "sides.exchanged_pair", "recording.starts_in_expression",
+                         "recording.ends_in_expression", "recording.nothing_moves"})
+    EXPECT_TRUE(doubts_figures(make_warning(id, "a text"))) << id;
+  for (const char* id : {"recording.coarse", "recording.short", "recording.time_unit_doubtful"})
+    EXPECT_FALSE(doubts_figures(make_warning(id, "a text"))) << id;
+}
+
 TEST(CheckAlone, ExchangedSidesAreRefusedByThePointsOfTheMouth) {
   const motion::Motion right = still_points_of(average_face().landmarks);
   EXPECT_THAT(check_alone(right), IsEmpty());

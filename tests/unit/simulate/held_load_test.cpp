@@ -375,5 +375,25 @@ TEST(HardlyUsedText, NamesAMuscleThatTheRecordingUsesLessThanItIsKnown) {
   EXPECT_EQ(text({{"zyg_major_R", 0.3}}), "") << "no muscles drive";
 }
 
+TEST(HardlyUsedText, AdvisesNoGainOnABranchThatAllHave) {
+  MuscleCourse recorded;
+  recorded.names = {"zyg_major_R", "zyg_minor_R", "zyg_minor_L", "frontal_med_R"};
+  recorded.activation = Eigen::MatrixXd::Constant(4, 2, 0.1);
+  recorded.sigma = Eigen::MatrixXd::Constant(4, 2, 0.4);
+  const auto advises_branch = [&](const std::vector<MuscleGain>& gains) {
+    MuscleOptions options;
+    options.gains = gains;
+    const std::string text = hardly_used_text(recorded, options);
+    EXPECT_THAT(text, testing::HasSubstr("a broad smile,")) << "it hardly uses any";
+    return text.find("smile, or a gain on the whole branch of the nerve shows more") !=
+           std::string::npos;
+  };
+  EXPECT_TRUE(advises_branch({{"zyg_major_R", 0.3}}));
+  EXPECT_FALSE(advises_branch({{"zygomatic_R", 0.3}}));
+  EXPECT_FALSE(advises_branch({{"side_R", 0.7}}));
+  EXPECT_FALSE(advises_branch({{"zyg_major_R", 0.3}, {"zyg_minor_R", 0.3}})) << "all of it";
+  EXPECT_FALSE(advises_branch({{"frontal_med_R", 0.3}})) << "alone on its branch";
+}
+
 }  // namespace
 }  // namespace hyperex::simulate

@@ -374,6 +374,12 @@ TEST_F(StudioSession, ComparesARecordingWithTheOneBefore) {
   const std::string page = read_file(folder_.path() / "mine" / "change.html");
   EXPECT_THAT(page, HasSubstr("visit2.csv"));
   EXPECT_EQ(page.find("uploads"), std::string::npos) << "the studio's own folder means nothing";
+  std::ofstream(folder_.path() / "mine" / "change.html") << "of the comparison before";
+  std::ofstream(folder_.path() / "mine" / "change-2.html") << "not of the studio";
+  EXPECT_THAT(compared("change")["path"].get<std::string>(), testing::EndsWith("/change-3.html"));
+  EXPECT_EQ(read_file(folder_.path() / "mine" / "change.html"), "of the comparison before");
+  EXPECT_EQ(read_file(folder_.path() / "mine" / "change-2.html"), "not of the studio");
+  EXPECT_THAT(read_file(folder_.path() / "mine" / "change-3.html"), HasSubstr("visit2.csv"));
   ask("undo");
   EXPECT_EQ(event("scene")->head["earlier"], "") << "it is the present one again";
   ask("undo");

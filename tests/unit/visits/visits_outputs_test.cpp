@@ -12,6 +12,7 @@
 #include "hyperex/anatomy/lips.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/io/text_table.hpp"
+#include "hyperex/visits/summary.hpp"
 #include "hyperex/visits/visit_figures.hpp"
 #include "hyperex/visits/visit_picture.hpp"
 #include "hyperex/visits/visits_page.hpp"
@@ -38,7 +39,7 @@ TEST(VisitsOutputs, TheTableHasEachMeasureOfEachVisit) {
   const io::TextTable table = io::read_text_table(folder / "t.csv");
   EXPECT_EQ(table.rows.size(), 2 * two.measures.size());
   for (std::size_t r = 0; r < table.rows.size(); ++r) {
-    EXPECT_EQ(table.rows[r].size(), 15u);
+    EXPECT_EQ(table.rows[r].size(), 16u);
     EXPECT_EQ(table.rows[r][7].empty(), r < two.measures.size()) << "changes since the first";
   }
   const auto& right = table.rows[two.measures.size()];
@@ -46,6 +47,59 @@ TEST(VisitsOutputs, TheTableHasEachMeasureOfEachVisit) {
   EXPECT_EQ(right[2], "R");
   EXPECT_NEAR(std::stod(right[7]), -0.4e3 * kWholeSmile.norm(), 0.05);
   EXPECT_EQ(right[12], "yes");
+  EXPECT_EQ(right[15], "no") << "nothing doubts it";
+  EXPECT_EQ(table.names[15], "doubtful");
+}
+
+/// Where a measure stands among all.
+std::size_t place_of(const Comparison& comparison, const std::string& key,
+                     const std::string& side) {
+  const auto place = std::ranges::find_if(comparison.measures, [&](const auto& one) {
+    return one.measure.key == key && one.measure.side == side;
+  });
+  return std::size_t(place - comparison.measures.begin());
+}
+
+/// The cells `doubtful` of the table, for the visits after the first.
+std::vector<std::string> doubtful_cells(const Comparison& comparison) {
+  const TestFolder folder;
+  write_visits_table(folder / "t.csv", comparison);
+  std::vector<std::string> cells;
+  for (const auto& row : io::read_text_table(folder / "t.csv").rows)
+    if (!row[7].empty()) cells.push_back(row[15]);
+  return cells;
+}
+
+TEST(VisitsOutputs, AComparisonOfADoubtedVisitIsMarkedInEachTable) {
+  Comparison two = two_visits();
+  MeasureOverVisits of_scans = two.measures[place_of(two, "corner_excursion", "R")];
+  of_scans.measure.value = {};
+  two.measures.push_back(of_scans);
+  EXPECT_THAT(doubtful_cells(two), testing::Each("no"));
+  for (const std::size_t doubted : {0u, 1u}) {
+    Comparison one_doubted = two;
+    one_doubted.faces[doubted][0].doubts = {"it may be another person"};
+    std::vector<std::string> cells = doubtful_cells(one_doubted);
+    ASSERT_EQ(cells.size(), two.measures.size());
+    EXPECT_EQ(cells.back(), "no") << "a recording does not doubt a scan";
+    cells.pop_back();
+    EXPECT_THAT(cells, testing::Each("yes")) << doubted;
+    const auto& right = one_doubted.measures[place_of(two, "corner_excursion", "R")];
+    EXPECT_EQ(verdict_words(one_doubted, right, 1), "yes, doubtful");
+    EXPECT_EQ(verdict_words(two, right, 1), "yes");
+  }
+}
+
+TEST(VisitsOutputs, AVisitBetweenThatIsDoubtedDoubtsItsOwnChangeAlone) {
+  VisitsFile file = visits_of(3);
+  const MeasuredFace first = measure(recording_of({}), file, 0.0, nullptr);
+  MeasuredFace between = measure(recording_of({.right = 0.6}), file, 0.0, &first);
+  const MeasuredFace last = between;
+  between.doubts = {"it may be another person"};
+  const Comparison three = compare(file, {{first}, {between}, {last}});
+  const auto& right = three.measures[place_of(three, "corner_excursion", "R")];
+  EXPECT_TRUE(is_doubtful(three, right, 1));
+  EXPECT_FALSE(is_doubtful(three, right, 2));
 }
 
 nlohmann::json page_of(const Comparison& comparison) {
@@ -68,6 +122,7 @@ TEST(VisitsOutputs, ThePageHasTheSameFigures) {
   EXPECT_NEAR(manifest["measures"][0]["values"][1]["high"].get<double>(),
               two.measures[0].values[1]->measured->high, 1e-12);
   EXPECT_EQ(manifest["measures"][0]["changes"][1]["beyond"], "yes");
+  EXPECT_EQ(manifest["measures"][0]["changes"][1]["doubtful"], false);
   EXPECT_TRUE(manifest["measures"][0]["changes"][0].is_null());
   EXPECT_EQ(manifest["curves"].size(), 2u);
   EXPECT_EQ(manifest["visits"][1]["recordings"][0], "smile.csv");
@@ -83,8 +138,10 @@ TEST(VisitsOutputs, ThePageHasDoubtsBesideTheHeadlineAndOtherRemarksBelow) {
   two.faces[1][0].remarks = {"a point jumps"};
   const nlohmann::json manifest = page_of(two);
   EXPECT_EQ(manifest["summary"][2], "Doubtful: it may be another person.");
-  EXPECT_EQ(manifest["notes"],
-            nlohmann::json::array({"the head is held by a band", "a point jumps"}));
+  EXPECT_EQ(manifest["measures"][0]["changes"][1]["doubtful"], true);
+  EXPECT_EQ(manifest["notes"], nlohmann::json::array({"a point jumps"}));
+  EXPECT_EQ(manifest["choices"], nlohmann::json::array({"the head is held by a band"}))
+      << "which warns of nothing";
 }
 
 TEST(VisitsOutputs, ThePageSaysWhatAPictureLacks) {

@@ -241,7 +241,7 @@ export interface CtSliceAnswer {
 
 /**
  * Compares the present recording with the one before as two visits of one person (docs/visits.md). Writes a
- * page into the folder of the command line.
+ * page into the folder of the command line. Where one of that name is there, the name gets a number.
  */
 export interface CompareVisitsRequest {
   /** what was performed */

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What was recorded at each visit, and how the table is read.
 import { element } from '../page/dom';
-import type { Manifest, Visit } from './manifest';
+import type { Manifest, Measure, Visit } from './manifest';
 
 const mm = (value: number | null): string => (value === null ? 'not known' : `${value.toFixed(1)} mm`);
 
@@ -20,11 +20,14 @@ const changeWords = (count: number): (string | HTMLElement)[] => [
     'What an interval mostly comes from is the largest of its parts. ',
 ];
 
-export function explain(host: HTMLElement, { visits, repetition, peak_by, measures }: Manifest): void {
+const isDoubted = (measures: Measure[]): boolean => measures.some(({ changes }) => changes.some((change) => change?.doubtful));
+
+export function explain(host: HTMLElement, { visits, repetition, peak_by, measures, choices }: Manifest): void {
   const how = element('p');
   how.append(
     `Each visit’s column has the value at the peak (by the ${peak_by}) and in brackets its 95 % interval by measurement alone. `,
     ...(visits.length > 1 ? changeWords(visits.length) : []),
+    ...(isDoubted(measures) ? ['Doubtful: something said above or in the notes doubts the figures of one of both visits. '] : []),
     `Of ${measures.length} measures that did not change, one in 20 is outside its interval by chance. Curves begin to count where half of the way to the peak is reached. R and L are the person’s own sides.`,
   );
   const list = element('ul');
@@ -33,5 +36,5 @@ export function explain(host: HTMLElement, { visits, repetition, peak_by, measur
     item.append(element('b', visit.label), ` ${recordedWords(visit)}`);
     list.append(item);
   }
-  host.append(element('p', repetition.text), how, element('h2', 'What was recorded'), list);
+  host.append(element('p', repetition.text), how, ...choices.map((choice) => element('p', choice, 'choice')), element('h2', 'What was recorded'), list);
 }

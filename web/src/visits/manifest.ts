@@ -48,6 +48,8 @@ export interface Change {
   low_measured: number | null;
   high_measured: number | null;
   beyond: Beyond;
+  /** Whether something doubts the figures of this or of the first visit. */
+  doubtful: boolean;
   /** The largest part of the interval. */
   largest: Part;
 }
@@ -76,6 +78,9 @@ export interface Manifest {
   curves: VisitCurve[];
   measures: Measure[];
   summary: string[];
+  /** Remarks, which stand out. */
   notes: string[];
+  /** What was chosen where the file leaves it open, as the points that hold the head. */
+  choices: string[];
   caveat: string;
 }

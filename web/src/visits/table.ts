@@ -56,8 +56,8 @@ function rowHeads(measure: Measure, group: Measure[], place: number): HTMLTableC
 function changeCells(change: Change | null, { unit, values }: Measure, visit: number): HTMLTableCellElement[] {
   if (!change) return [figureCell(null, 'change', values[0] && values[visit] ? 'not compared' : 'not measured'), element('td', '', 'measured'), element('td', '', 'verdict'), element('td', '', 'part')];
   const figure = changeFigure(change, unit);
-  const verdict = element('td', change.beyond, 'verdict');
-  verdict.dataset.beyond = change.beyond;
+  const verdict = element('td', change.doubtful ? `${change.beyond}, doubtful` : change.beyond, 'verdict');
+  verdict.dataset.beyond = change.doubtful ? 'doubtful' : change.beyond;
   const over = figureCell(figure, 'change');
   over.title = `By measurement alone: ${figure.measured}`;
   return [over, element('td', figure.measured, 'measured'), verdict, element('td', partWords[change.largest] ?? change.largest, 'part')];
@@ -132,7 +132,7 @@ export class MeasureTable {
   private row(measure: Measure, group: Measure[], place: number): HTMLTableRowElement {
     const { visits } = this.manifest;
     const change = measure.changes[this.choice.visit] ?? null;
-    const row = element('tr', '', change?.beyond === 'yes' ? 'beyond' : '');
+    const row = element('tr', '', change?.beyond === 'yes' && !change.doubtful ? 'beyond' : '');
     const values = visits.map((_, visit) => {
       const value = measure.values[visit] ?? null;
       return figureCell(value && valueFigure(value, measure.unit), this.columnClass(visit));

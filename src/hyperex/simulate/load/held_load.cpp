@@ -24,6 +24,21 @@ int counterpart(const std::vector<std::string>& muscles, std::size_t m) {
   return static_cast<int>(it == muscles.end() ? m : it - muscles.begin());
 }
 
+/// Whether a gain on the whole branch of this muscle, on its side, would change others that keep
+/// their strength. `factor`: one per muscle.
+bool more_on_branch(const std::vector<std::string>& names, const Eigen::VectorXd& factor,
+                    Eigen::Index muscle, const muscles::MuscleTable& table) {
+  const std::string& own = names[std::size_t(muscle)];
+  const std::string side = own.substr(own.size() - 2);
+  const muscles::TemplateMuscle* row = muscles::find_muscle(own.substr(0, own.size() - 2), table);
+  if (!row || row->branch.empty()) return false;
+  for (Eigen::Index m = 0; m < factor.size(); ++m)
+    if (factor[m] == 1 &&
+        muscles::names_for(names[std::size_t(m)], table).contains(row->branch + side))
+      return true;
+  return false;
+}
+
 /// The course of the load, perhaps changed, at times.
 Eigen::MatrixXd at_times(const HeldLoad& load, const Eigen::MatrixXd& course,
                          const std::vector<double>& times_s) {
@@ -150,9 +165,12 @@ std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& 
   return fmt::format(
       "in this recording {} is active by at most {:.2f} +- {:.2f} (1 sigma), less than its "
       "uncertainty, so that the effect of its strength is hardly known; a recording that uses it "
-      "more, such as a broad smile, or a gain on the whole branch of the nerve shows more",
+      "more, such as a broad smile,{} shows more",
       recorded.names[std::size_t(most)], recorded.activation(most, when),
-      recorded.sigma(most, when));
+      recorded.sigma(most, when),
+      more_on_branch(recorded.names, factor, most, options.table())
+          ? " or a gain on the whole branch of the nerve"
+          : "");
 }
 
 Eigen::MatrixXd group_sums(const MuscleCourse& muscles, const std::vector<std::string>& groups,

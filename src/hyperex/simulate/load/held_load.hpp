@@ -64,8 +64,9 @@ double greatest_opening_deg(const HeldLoad& load, double end_s);
 MuscleCourse changed_muscles(const MuscleCourse& muscles, const MuscleOptions& options);
 
 /// The text of a note on gains that change only muscles which the recording uses by less than their
-/// uncertainty (1 sigma): which of these muscles acts most, and how much. Empty where a gain
-/// changes another muscle, or none changes anything.
+/// uncertainty (1 sigma): which of these muscles acts most, and how much. It speaks of a gain on
+/// that muscle's whole branch where some muscle of the branch keeps its strength. Empty where a
+/// gain changes another muscle, or none changes anything.
 std::string hardly_used_text(const MuscleCourse& recorded, const MuscleOptions& options);
 
 /// Sums of activations over the groups that are named as in MuscleCourse::groups: |groups| x
