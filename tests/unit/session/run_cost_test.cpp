@@ -248,9 +248,8 @@ TEST(RunCost, SaysWhatOfTheRecordingIsRun) {
   EXPECT_THAT(sentence(), testing::HasSubstr("from 0 s to 2.667 s of the recording; about"));
   scene.motion.start_s = 1;
   scene.time.end_s = 1.5;  // half a second of it leads from rest to where the run begins
-  EXPECT_THAT(sentence(),
-              testing::HasSubstr("from 1 s to 2 s of the recording, led in from rest "
-                                 "over the 0.5 s before: frame 0 is at 0.5 s; about"));
+  EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2 s of the recording, led in from rest "
+                                             "over the 0.5 s before: frame 0 is at 0.5 s; about"));
   scene.time.end_s = 1;
   scene.motion.time_scale = 0.5;
   EXPECT_THAT(sentence(), testing::HasSubstr("from 1 s to 2.5 s of the recording"));
