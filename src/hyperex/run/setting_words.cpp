@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "hyperex/core/add_rest.hpp"
 #include "hyperex/tissue/field/layers.hpp"
 
 namespace hyperex::run {
@@ -26,17 +27,13 @@ std::string gained_muscle(const std::string& name) {
 /// Empty where all gains are 1.
 std::string gains_line(const std::vector<simulate::MuscleGain>& gains) {
   std::vector<std::string> named;
-  std::size_t more = 0;
-  for (const simulate::MuscleGain& one : gains) {
-    if (one.gain == 1) continue;
-    if (named.size() == kNamedGains)
-      ++more;
-    else
+  std::size_t count = 0;
+  for (const simulate::MuscleGain& one : gains)
+    if (one.gain != 1 && ++count <= kNamedGains)
       named.push_back(fmt::format("{} by {:g}", gained_muscle(one.muscle), one.gain));
-  }
   if (named.empty()) return "";
-  return fmt::format("muscles.gain multiplies activations: {}{}", fmt::join(named, ", "),
-                     more > 0 ? fmt::format(", and {} more", more) : "");
+  add_rest(named, count);
+  return fmt::format("muscles.gain multiplies activations: {}", fmt::join(named, ", "));
 }
 
 /// Empty where preset and layers are the default.

@@ -8,10 +8,10 @@
 
 namespace hyperex::run {
 
-/// Lines for the terminal, without ends, on what a scene changes and what it has by default:
-/// "muscles.gain multiplies activations: left side by 0.6, zygomatic (right) by 1.2" where a gain
-/// is not 1, "tissue: preset skin_fat_deep, 3 layers of tissue, 4 layers of elements" of what is
-/// not the default, and that the lips are kept apart where no key says so.
+/// Lines for the terminal, without ends. Gains other than 1: "muscles.gain multiplies activations:
+/// left side by 0.6, zygomatic (right) by 1.2". Settings of the tissue that are not the default:
+/// "tissue: preset skin_fat_deep, 3 layers of tissue, 4 layers of elements". Contact of the lips,
+/// where it is on by default and not by a key of the scene.
 std::vector<std::string> setting_lines(const scene::Scene& scene);
 
 /// One line from a run's summary on what contact did to its own face, not to its variants: "contact

@@ -180,8 +180,8 @@ double misfit_exchanged_m(const motion::Motion& stabilised, const FaceAtRest& fa
   return fit ? fit->as_is_m : std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Pairs of which neither those that are opposite nor the others are a majority that the fit
-/// follows. Which of them are wrong is said where the exchange of these fits far better.
+/// Some pairs are opposite to those of the face, others are not, and the others are no majority.
+/// Where exchanging the names of one kind fits far better, the warning advises it.
 std::optional<Note> contradiction_warning(const motion::Motion& stabilised,
                                           const FaceAtRest& face) {
   const ExchangedPairs pairs = pairs_by_place(stabilised, face);

@@ -91,8 +91,8 @@ std::optional<Note> short_warning(const std::vector<double>& time_s,
 void check_pairs(const motion::Motion& stabilised, const FaceAtRest& face);
 
 /// `sides.exchanged_pair`: names the pairs whose vector is opposite by less than that, as of points
-/// that are set wrongly. check_pairs comes before it. Where no pair is exchanged but a vector is
-/// opposite, one of its points lies elsewhere: this is said unless misplaced_points() finds points.
+/// that are set wrongly. Call check_pairs first. An opposite vector that no exchange of names
+/// mends has a misplaced point: the warning says so unless misplaced_points() names that point.
 /// Where at least half of the pairs are opposite and another is not, the pairs contradict each
 /// other: it names both kinds, and which to exchange where one exchange fits twice as well as the
 /// other.

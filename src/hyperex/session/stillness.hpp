@@ -11,9 +11,9 @@ namespace hyperex::session {
 /// is where the recording has jitter (recorded_jitter) and nothing moves beyond it: with all tracks
 /// smoothed by a low-pass of 3 Hz, no point goes farther from its first place than jitter takes the
 /// farthest of all points in all but about 1 of 100 recordings. The jitter of a point is its own,
-/// at least that of all. A point that goes 3 mm moves in any case. Jitter is not told from motion
-/// in fewer than 20 samples or where they are more than 0.1 s apart; then the first rule holds
-/// alone. `eyes_turn`: the recording has the gaze; then, too.
+/// at least that of all. A smoothed point that goes 3 mm or more always counts as moving. The first
+/// rule holds alone in fewer than 20 samples, where they are more than 0.1 s apart, and where
+/// `eyes_turn`: the recording has the gaze, and the eyes turn in it.
 std::optional<Note> stillness_warning(const motion::Motion& stabilised, bool eyes_turn);
 
 }  // namespace hyperex::session

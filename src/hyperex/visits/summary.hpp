@@ -16,7 +16,7 @@ namespace hyperex::visits {
 /// reversed, or its angle turned, beyond the interval. A side whose points a visit lacks is "not
 /// recorded". Visits whose faces have different scales are not compared. A change that is beyond
 /// comes first, the largest of them before the others; else R is before L. Where there are
-/// doubts(), each comparison is said to be doubtful, and each doubt follows: "Doubtful: ...". A
+/// doubts(), each comparison ends with "doubtful", and a sentence for each of them follows. A
 /// last sentence has the norm of healthy adults, if there is one.
 std::vector<std::string> summary(const Comparison& comparison);
 

@@ -133,15 +133,22 @@ TEST(CheckAlone, SidesThatAreExchangedLessSurelyAreAWarning) {
                                 says("7.7 mm rms"), says("4.9 mm with one axis negated"))));
 }
 
-TEST(CheckAlone, OneExchangedPairAmongOthersIsRefused) {
+/// One sample of all iBUG points of the average face, raised by so much.
+motion::Motion average_sample(double up_m) {
   motion::Motion m;
   m.source = "alone.csv";
   m.time_s = {0};
   m.positions.emplace_back(68, 3);
   for (int i = 0; i < 68; ++i) {
     m.names.push_back(face::ibug(i));
-    m.positions[0].row(i) = average_face().landmarks.at(m.names.back()).transpose();
+    const Vec3 at = average_face().landmarks.at(m.names.back()) + Vec3(0, up_m, 0);
+    m.positions[0].row(i) = at.transpose();
   }
+  return m;
+}
+
+TEST(CheckAlone, OneExchangedPairAmongOthersIsRefused) {
+  motion::Motion m = average_sample(0);
   EXPECT_THAT(check_alone(m), IsEmpty());
   m.positions[0].row(48).swap(m.positions[0].row(54));
   EXPECT_THAT(test::refusal([&] { check_alone(m); }),
@@ -165,15 +172,7 @@ TEST(CheckAlone, PairsThatContradictEachOtherAreAWarning) {
 /// By the place of the face's origin the two corners lie the other way round, or hardly so.
 TEST(CheckAlone, APointWithTwoAxesExchangedIsNotCalledTheOtherSide) {
   for (const double up_m : {0.0, -0.03}) {
-    motion::Motion m;
-    m.source = "alone.csv";
-    m.time_s = {0};
-    m.positions.emplace_back(68, 3);
-    for (int i = 0; i < 68; ++i) {
-      m.names.push_back(face::ibug(i));
-      const Vec3 at = average_face().landmarks.at(m.names.back()) + Vec3(0, up_m, 0);
-      m.positions[0].row(i) = at.transpose();
-    }
+    motion::Motion m = average_sample(up_m);
     std::swap(m.positions[0](54, 0), m.positions[0](54, 1));
     EXPECT_THAT(check_alone(m),
                 ElementsAre(AllOf(is_warning("recording.point_off"),
