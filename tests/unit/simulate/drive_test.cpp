@@ -215,29 +215,29 @@ TEST_F(Drive, AFadingPatchOfTheChinHasNoStepAtItsEdge) {
   const double radius = 0.006;  // of parted lips, as field_of() has them
   const DrivenPatches even = driven_patches(field, face_.mesh, radius, "motion.csv"),
                       p = driven_patches(field, face_.mesh, radius, "motion.csv", fading);
-  EXPECT_TRUE((even.share.array() == 1).all());
+  EXPECT_TRUE((even.hold.array() == 1).all());
   const Points& skin = face_.mesh.volume.outer.points;
   int between = 0;
   for (std::size_t j = 0; j < p.nodes.size(); ++j) {
-    const double share = p.share[Eigen::Index(j)];
+    const double hold = p.hold[Eigen::Index(j)];
     const auto away = [&](const DrivenPoint& point) {
       return (skin.row(p.nodes[j]).transpose() - point.rest).norm();
     };
     if (std::any_of(points.begin(), points.end(), [&](const DrivenPoint& point) {
           return point.name != "ibug68_8" && away(point) < radius;
         })) {
-      EXPECT_EQ(share, 1) << "the patches of other points are as before";
+      EXPECT_EQ(hold, 1) << "the patches of other points are as before";
       continue;
     }
     const double d = away(points[std::size_t(chin)]);
     if (d < radius) {
-      EXPECT_EQ(share, 1);
+      EXPECT_EQ(hold, 1);
     }
     if (d > radius + 0.017) {
-      EXPECT_LT(share, 0.05) << d;
+      EXPECT_LT(hold, 0.05) << d;
     }
     EXPECT_LT(d, radius + 0.020);
-    between += share > 0.2 && share < 0.8;
+    between += hold > 0.2 && hold < 0.8;
     EXPECT_LE(face_.mesh.upper_margin[std::size_t(p.nodes[j])], 0) << "the lower face alone";
   }
   EXPECT_GT(between, 2);
@@ -251,7 +251,7 @@ TEST_F(Drive, APatchOfRadiusZeroDoesNotFade) {
   const DrivenPatches even = driven_patches(field, face_.mesh, 0, "motion.csv"),
                       p = driven_patches(field, face_.mesh, 0, "motion.csv", fading);
   EXPECT_EQ(p.nodes, even.nodes);
-  EXPECT_TRUE((p.share.array() == 1).all());
+  EXPECT_TRUE((p.hold.array() == 1).all());
 }
 
 TEST_F(Drive, ATinyPatchIsOneNodeAPoint) {

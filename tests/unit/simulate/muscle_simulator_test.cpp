@@ -158,7 +158,9 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
       << "the points are where they were";
 }
 
-TEST_F(DrivenByForces, TheChinsPatchEndsInTheTissuesOwnDisplacement) {
+/// Around the chin's patch, the skin is held less and less firmly. So it returns there from the field
+/// between the points to the tissue's own displacement.
+TEST_F(DrivenByForces, TheChinsPatchLetsGoTowardsItsEdge) {
   options_.muscles.shape_prior = false;
   const auto peak = [&](double share) {
     options_.muscles.few_cheek_share = options_.muscles.few_lip_share = options_.muscles.jaw_share =
@@ -175,15 +177,15 @@ TEST_F(DrivenByForces, TheChinsPatchEndsInTheTissuesOwnDisplacement) {
       return (rest.row(v).transpose() - face_.landmarks.at(point)).norm();
     };
     if (std::any_of(options_.drive.points.begin(), options_.drive.points.end(),
-                    [&](const std::string& p) { return p != "ibug68_8" && away(p) < 0.013; }))
+                    [&](const std::string& p) { return p != "ibug68_8" && away(p) < 0.020; }))
       continue;
-    if (const double d = away("ibug68_8"); d < 0.015)
+    if (const double d = away("ibug68_8"); d < 0.020)
       inside = std::max(inside, mixed[v]);
-    else if (d > 0.029 && d < 0.032 && mesh_->upper_margin[std::size_t(v)] <= 0)
+    else if (d > 0.025 && d < 0.032 && mesh_->upper_margin[std::size_t(v)] <= 0)
       edge = std::max(edge, mixed[v]);
   }
   EXPECT_GT(edge, 0);
-  EXPECT_LT(edge, 0.1 * inside);
+  EXPECT_LT(edge, 0.9 * inside) << "1.04 of it where all of the patch is held exactly";
 }
 
 TEST_F(DrivenByForces, AMuscleMayHaveAShareOfItsOwn) {

@@ -181,7 +181,7 @@ class LoadWithShapes : public ShapesOnAFace {
 TEST_F(LoadWithShapes, HoldingForcesMakeTheDisplacementThatTheyStateInEquilibrium) {
   const std::vector<int> nodes = {150, 151, 160};
   const Eigen::MatrixXd displaced = 1e-3 * Eigen::MatrixXd::Random(9, 2);
-  const HeldShape held = holding_forces(*model_, nodes, displaced, {});
+  const HeldShape held = holding_forces(*model_, nodes, exactly(nodes), displaced, {});
   for (Eigen::Index c = 0; c < 2; ++c) {
     const Eigen::VectorXd moved = static_response(held.force.col(c));
     EXPECT_LT((moved - held.moved.col(c)).norm(), 1e-8 * moved.norm());
@@ -190,6 +190,37 @@ TEST_F(LoadWithShapes, HoldingForcesMakeTheDisplacementThatTheyStateInEquilibriu
                     .norm(),
                 1e-9);
   }
+}
+
+/// The force at such a node is that of a spring between its place and the one asked for.
+TEST_F(LoadWithShapes, ANodeThatIsNotHeldFirmlyIsDrawnToItsPlaceByASpring) {
+  const std::vector<int> nodes = {150, 151, 160};
+  const Eigen::Vector3d hold(1, 0.5, 0.1);
+  const Eigen::MatrixXd displaced = 1e-3 * Eigen::MatrixXd::Random(9, 2);
+  const HeldShape held = holding_forces(*model_, nodes, hold, displaced, {});
+  for (Eigen::Index c = 0; c < 2; ++c) {
+    const Eigen::VectorXd moved = static_response(held.force.col(c));
+    EXPECT_LT((moved - held.moved.col(c)).norm(), 1e-8 * moved.norm());
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+      const auto row = 3 * Eigen::Index(i);
+      const Vec3 short_of =
+          displaced.col(c).segment<3>(row) - moved.segment<3>(3 * Eigen::Index(nodes[i]));
+      if (hold[Eigen::Index(i)] == 1) {
+        EXPECT_LT(short_of.norm(), 1e-9);
+        continue;
+      }
+      const Eigen::SparseMatrix<double>& k = model_->stiffness();
+      double own = 0;
+      for (int a = 0; a < 3; ++a) own += k.coeff(3 * nodes[i] + a, 3 * nodes[i] + a) / 3;
+      const Vec3 force = held.force.col(c).segment<3>(3 * Eigen::Index(nodes[i]));
+      const double spring = own * hold[Eigen::Index(i)] / (1 - hold[Eigen::Index(i)]);
+      EXPECT_LT((force - spring * short_of).norm(), 1e-6 * force.norm());
+      EXPECT_GT(short_of.norm(), 1e-5);
+    }
+  }
+  const auto nearly = holding_forces(*model_, nodes, Eigen::Vector3d(1, 1 - 1e-9, 1), displaced, {});
+  const auto firmly = holding_forces(*model_, nodes, exactly(nodes), displaced, {});
+  EXPECT_LT((nearly.moved - firmly.moved).norm(), 1e-6 * firmly.moved.norm());
 }
 
 /// Where elements are large, the nodes that carry a point may be far from it.

@@ -29,9 +29,9 @@ Eigen::MatrixXd spread(const Eigen::MatrixXd& of_driven, const std::vector<int>&
 
 /// Where a node is measured, it follows the tracked triangle and no patch.
 void add_measured(const MeasuredRegion& region, DrivenSkin& driven, Eigen::Index points) {
-  std::map<int, std::pair<Eigen::RowVectorXd, double>> rows;  // weights and share
+  std::map<int, std::pair<Eigen::RowVectorXd, double>> rows;  // weights and hold
   for (std::size_t j = 0; j < driven.nodes.size(); ++j)
-    rows[driven.nodes[j]] = {driven.weights.row(Eigen::Index(j)), driven.share[Eigen::Index(j)]};
+    rows[driven.nodes[j]] = {driven.weights.row(Eigen::Index(j)), driven.hold[Eigen::Index(j)]};
   for (std::size_t v = 0; v < region.outer.size(); ++v) {
     if (region.outer_share[v] < 1) continue;
     Eigen::RowVectorXd row = Eigen::RowVectorXd::Zero(points);
@@ -40,11 +40,11 @@ void add_measured(const MeasuredRegion& region, DrivenSkin& driven, Eigen::Index
   }
   driven.nodes.clear();
   driven.weights.resize(static_cast<Eigen::Index>(rows.size()), points);
-  driven.share.resize(static_cast<Eigen::Index>(rows.size()));
+  driven.hold.resize(static_cast<Eigen::Index>(rows.size()));
   for (const auto& [node, row] : rows) {
     const auto j = static_cast<Eigen::Index>(driven.nodes.size());
     driven.weights.row(j) = row.first;
-    driven.share[j] = row.second;
+    driven.hold[j] = row.second;
     driven.nodes.push_back(node);
   }
 }
@@ -93,7 +93,7 @@ DrivenSkin driven_skin(const tissue::TissueMesh& mesh, const io::Landmarks& land
              driven.rows, motion.rest.rows());
   driven.nodes = patches.nodes;
   driven.weights = spread(patches.weights, driven.rows, motion.rest.rows());
-  driven.share = patches.share;
+  driven.hold = patches.hold;
   add_measured(region, driven, motion.rest.rows());
   return driven;
 }

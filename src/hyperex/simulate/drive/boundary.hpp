@@ -19,7 +19,7 @@ struct DrivenSkin {
   std::vector<int> rows;          ///< points of the motion that drive
   std::vector<int> nodes;         ///< outer nodes whose displacement is prescribed, rising
   Eigen::MatrixXd weights;        ///< |nodes| x P: displacement = weights * that of the points
-  Eigen::VectorXd share;          ///< |nodes|: DrivenPatches::share; 1 at measured nodes
+  Eigen::VectorXd hold;           ///< |nodes|: DrivenPatches::hold; 1 at measured nodes
   Eigen::MatrixXd field_weights;  ///< |inner nodes| x P: the same for the field
 };
 
@@ -34,7 +34,7 @@ struct ChosenPoints {
 ChosenPoints chosen_points(const io::Landmarks& landmarks, const AlignedMotion& motion,
                            const DriveOptions& drive);
 
-/// Whether the patches of points on the chin fade (DrivenPatches::share).
+/// Whether the patches of points on the chin fade (DrivenPatches::hold).
 enum class ChinPatches { even, fading };
 
 /// Throws InputError for points that do not exist or lie far off the skin.

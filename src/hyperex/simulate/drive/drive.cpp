@@ -30,7 +30,7 @@ constexpr double one_place_m = 0.001;
 constexpr double correction_ridge = 1e-4;
 /// Difference of the walks to both lips at which a place counts as wholly above or below the mouth.
 constexpr double full_margin_m = 0.010;
-/// How far beyond a patch its share falls from 1 to 0, where it fades. A patch that ends at once
+/// How far beyond a patch its hold falls from 1 to 0, where it fades. A patch that ends at once
 /// leaves a step at its edge, which the skin of the chin shows (docs/muscles.md).
 constexpr double fading_m = 0.020;
 
@@ -54,16 +54,16 @@ std::vector<int> patch_nodes(const std::vector<DrivenPoint>& points, std::size_t
   return hit;
 }
 
-/// Raises the shares (by node) over the patch of point i to those of this point. What a fading
+/// Raises the holds (by node) over the patch of point i to those of this point. What a fading
 /// patch has beyond `radius` lies on the lower face alone, without the border, which may be held.
-/// The share is C2 there.
+/// The hold is C2 there.
 void add_patch(const std::vector<DrivenPoint>& points, std::size_t i,
                const tissue::TissueMesh& mesh, double radius, bool fades,
-               const CarrierMatrix& carriers, std::map<int, double>& shares) {
+               const CarrierMatrix& carriers, std::map<int, double>& holds) {
   const Points& skin = mesh.volume.outer.points;
-  const auto add = [&](int v, double share) {
-    double& has = shares.emplace(v, 0).first->second;
-    has = std::max(has, share);
+  const auto add = [&](int v, double hold) {
+    double& has = holds.emplace(v, 0).first->second;
+    has = std::max(has, hold);
   };
   for (const int v : patch_nodes(points, i, mesh, fades ? radius + fading_m : radius)) {
     const double d = (skin.row(v).transpose() - points[i].rest).norm();
@@ -249,17 +249,17 @@ DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& 
     rest.row(static_cast<Eigen::Index>(i)) = points[i].rest.transpose();
   }
   patches.carriers = carriers(mesh, skin_places(mesh, names, rest));
-  std::map<int, double> shares;  // by node
+  std::map<int, double> holds;  // by node
   const double radius = patch_radius_m * (1.5 - 0.5 * field.openness());
   for (std::size_t i = 0; i < points.size(); ++i)
     add_patch(points, i, mesh, radius, !fading.empty() && fading[i] && radius > 0, patches.carriers,
-              shares);
-  patches.share.resize(static_cast<Eigen::Index>(shares.size()));
-  Points places(shares.size(), 3);
+              holds);
+  patches.hold.resize(static_cast<Eigen::Index>(holds.size()));
+  Points places(holds.size(), 3);
   std::vector<double> margin;
-  for (const auto& [v, share] : shares) {
+  for (const auto& [v, hold] : holds) {
     const auto j = static_cast<Eigen::Index>(patches.nodes.size());
-    patches.share[j] = share;
+    patches.hold[j] = hold;
     places.row(j) = mesh.volume.outer.points.row(v);
     margin.push_back(mesh.upper_margin[std::size_t(v)]);
     patches.nodes.push_back(v);

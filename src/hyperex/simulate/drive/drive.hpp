@@ -67,7 +67,7 @@ std::vector<Vec3> still_places(const std::vector<DrivenPoint>& points,
 struct DrivenPatches {
   std::vector<int> nodes;   ///< outer nodes, rising
   Eigen::MatrixXd weights;  ///< |nodes| x |points|
-  Eigen::VectorXd share;    ///< |nodes|: how much of the field counts; below 1 in fading patches
+  Eigen::VectorXd hold;     ///< |nodes|: how firmly (holding_forces.hpp); below 1 in fading patches
   CarrierMatrix carriers;   ///< |points| x |outer nodes|: how the driven points follow the nodes
 };
 
@@ -75,7 +75,7 @@ struct DrivenPatches {
 void check_on_skin(const std::vector<DrivenPoint>& points, const TriMesh& skin,
                    const std::string& source);
 
-/// `fading`: empty, or one flag per point. Around a flagged point the share falls smoothly from 1
+/// `fading`: empty, or one flag per point. Around a flagged point the hold falls smoothly from 1
 /// to 0 over 20 mm more of the lower face, without the border, except in the patch of another point
 /// and at a radius of 0. Throws as check_on_skin().
 DrivenPatches driven_patches(const DriveField& field, const tissue::TissueMesh& mesh,

@@ -103,13 +103,6 @@ Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven
   return out;
 }
 
-/// The rows of `displaced` times their nodes' shares.
-Eigen::MatrixXd faded(const DrivenSkin& patches, Eigen::MatrixXd displaced) {
-  for (Eigen::Index j = 0; j < patches.share.size(); ++j)
-    displaced.middleRows<3>(3 * j) *= patches.share[j];
-  return displaced;
-}
-
 /// The displacement of the patches by the field between the driven points, minus that by the nodal
 /// displacements `nodal` (3 |nodes| x n). The driven points are displaced according to `nodal`.
 Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& driven,
@@ -123,7 +116,7 @@ Eigen::MatrixXd field_less_tissue(const DrivenSkin& patches, const Driven& drive
 /// The forces of muscles and jaw, then of the left-over's directions: columns of a HeldLoad. In the
 /// patches a column's displacement is `tissue_share` of that under its own forces, plus the rest of
 /// the field interpolated between the points. For the left-over it is that field alone. Where
-/// patches fade, the field counts less and less towards their edges.
+/// patches fade, the nodes are held to it less and less firmly.
 HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const Driven& driven,
                     const Eigen::MatrixXd& left_over, const Eigen::VectorXd& tissue_share,
                     Eigen::Index points, const std::function<void()>& between) {
@@ -137,8 +130,7 @@ HeldShape forces_of(const MuscleModel& model, const DrivenSkin& patches, const D
   displaced << field_less_tissue(patches, driven, moved, points) *
                    (1 - tissue_share.array()).matrix().asDiagonal(),
       field_in_patches(patches, driven, left_over, points);
-  HeldShape out =
-      holding_forces(model, patches.nodes, faded(patches, std::move(displaced)), between);
+  HeldShape out = holding_forces(model, patches.nodes, patches.hold, displaced, between);
   out.force.leftCols(own.cols()) += own;
   out.moved.leftCols(own.cols()) += moved.topRows(out.moved.rows());
   return out;
@@ -213,11 +205,11 @@ DrivenSkin patches_of(const tissue::TissueMesh& mesh, const io::Landmarks& landm
   return driven_skin(mesh, landmarks, motion, region, drive, ChinPatches::fading);
 }
 
-/// The nodes at which the whole field counts.
+/// The nodes that are held exactly.
 std::vector<int> wholly_held(const DrivenSkin& patches) {
   std::vector<int> nodes;
   for (std::size_t j = 0; j < patches.nodes.size(); ++j)
-    if (patches.share[Eigen::Index(j)] == 1) nodes.push_back(patches.nodes[j]);
+    if (patches.hold[Eigen::Index(j)] == 1) nodes.push_back(patches.nodes[j]);
   return nodes;
 }
 
@@ -251,7 +243,7 @@ void add_shapes(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
           correction.displaced.middleRows<3>(3 * Eigen::Index(from));
     ++from;
   }
-  const HeldShape held = holding_forces(model, nodes, displaced, between);
+  const HeldShape held = holding_forces(model, nodes, exactly(nodes), displaced, between);
   const Eigen::Index own = load.force.cols();
   load.force.conservativeResize(Eigen::NoChange, own + held.force.cols());
   load.force.rightCols(held.force.cols()) = held.force;

@@ -24,6 +24,7 @@
 #include "hyperex/geometry/surface_topology.hpp"
 #include "hyperex/tissue/mesh/corner_linings.hpp"
 #include "hyperex/tissue/mesh/on_skin.hpp"
+#include "hyperex/tissue/mesh/seams.hpp"
 #include "hyperex/tissue/mesh/skin_builder.hpp"
 #include "hyperex/tissue/mesh/skin_depth.hpp"
 #include "hyperex/tissue/mesh/unfold.hpp"
@@ -276,7 +277,9 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     out.on_border.assign(out.volume.surface_nodes(), 0);
     for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
     anchor_skin(out, landmarks_);
-    out.rim = rim_vertices(out.skin, out.volume.outer, out.anchors, out.on_border);
+    out.rim = smooth_seams(
+        out.skin, out.volume.outer, out.anchors,
+        rim_vertices(out.skin, out.volume.outer, out.anchors, out.on_border));
     move_repeated_vertices(out);
   });
   return std::move(mesh_);
