@@ -54,8 +54,7 @@ TEST(CotangentLaplacian, OfPositionsIsTheMeanCurvature) {
   const double curvature = 0.4;
   TriMesh mesh = sheet(40, curvature);
   mesh.points.leftCols(2).array() -= 0.5;  // the origin inside
-  mesh.points.col(2) =
-      curvature * mesh.points.leftCols(2).rowwise().squaredNorm() / 2;
+  mesh.points.col(2) = curvature * mesh.points.leftCols(2).rowwise().squaredNorm() / 2;
   const Eigen::MatrixXd of_positions = cotangent_laplacian(mesh) * mesh.points;
   const Eigen::VectorXd area = node_areas(mesh);
   Eigen::Index middle = 0;

@@ -158,8 +158,8 @@ TEST_F(DrivenByForces, PatchesAreAMixtureOfTissueAndField) {
       << "the points are where they were";
 }
 
-/// Around the chin's patch, the skin is held less and less firmly. So it returns there from the field
-/// between the points to the tissue's own displacement.
+/// Around the chin's patch, the skin is held less and less firmly. So it returns there from the
+/// field between the points to the tissue's own displacement.
 TEST_F(DrivenByForces, TheChinsPatchLetsGoTowardsItsEdge) {
   options_.muscles.shape_prior = false;
   const auto peak = [&](double share) {

@@ -218,7 +218,8 @@ TEST_F(LoadWithShapes, ANodeThatIsNotHeldFirmlyIsDrawnToItsPlaceByASpring) {
       EXPECT_GT(short_of.norm(), 1e-5);
     }
   }
-  const auto nearly = holding_forces(*model_, nodes, Eigen::Vector3d(1, 1 - 1e-9, 1), displaced, {});
+  const auto nearly =
+      holding_forces(*model_, nodes, Eigen::Vector3d(1, 1 - 1e-9, 1), displaced, {});
   const auto firmly = holding_forces(*model_, nodes, exactly(nodes), displaced, {});
   EXPECT_LT((nearly.moved - firmly.moved).norm(), 1e-6 * firmly.moved.norm());
 }

@@ -55,7 +55,8 @@ class Seams : public testing::Test {
     for (Eigen::Index v = 0; v < out.size(); ++v) {
       out[v] = 0;
       for (int k = 0; k < 3; ++k)
-        out[v] += anchors_[std::size_t(v)].weight[k] * at(anchors_[std::size_t(v)].node[std::size_t(k)]);
+        out[v] +=
+            anchors_[std::size_t(v)].weight[k] * at(anchors_[std::size_t(v)].node[std::size_t(k)]);
     }
     for (const RimVertex& one : rim) {
       out[one.vertex] = 0;
@@ -92,7 +93,8 @@ TEST_F(Seams, SkinBeyondFourMillimetresIsAsItWas) {
   anchor(0.006);
   const auto rim = smooth_seams(skin_, outer_, anchors_, {});
   ASSERT_GT(rim.size(), 300u);
-  for (const RimVertex& one : rim) EXPECT_LT(std::abs(skin_.points(one.vertex, 1) - 0.0005), 0.0046);
+  for (const RimVertex& one : rim)
+    EXPECT_LT(std::abs(skin_.points(one.vertex, 1) - 0.0005), 0.0046);
   EXPECT_TRUE(std::is_sorted(rim.begin(), rim.end(), [](const RimVertex& a, const RimVertex& b) {
     return a.vertex < b.vertex;
   }));

@@ -17,8 +17,8 @@ struct HeldShape {
 /// Forces that keep nodes at the displacements in the columns of `displaced` (3 |nodes| x n, m),
 /// with the rest of the face in equilibrium without external forces. `nodes`: outer ones, rising,
 /// none prescribed by the model's boundary. `hold`: how firmly, one per node, above 0. A node of
-/// hold 1 moves exactly as asked. One of hold h < 1 is drawn to its place by a spring of h / (1 - h)
-/// times its own stiffness, the mean of its three entries on the stiffness matrix's diagonal.
+/// hold 1 moves exactly as asked. One of hold h < 1 is drawn to its place by a spring of h / (1 -
+/// h) times its own stiffness, the mean of its three entries on the stiffness matrix's diagonal.
 /// `between` (may be empty) is called repeatedly; it may throw, which ends the computation.
 HeldShape holding_forces(const MuscleModel& model, const std::vector<int>& nodes,
                          const Eigen::VectorXd& hold, const Eigen::MatrixXd& displaced,

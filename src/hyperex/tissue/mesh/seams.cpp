@@ -21,10 +21,10 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 // Differences of weights that are a seam: per metre, per edge of the simulated surface, at most.
 constexpr double kPerMetre = 1500, kPerElement = 6, kAnyLength = 1.9;
-constexpr double kBesideSeam_m = 0.004;                    // walk to a seam: changed
-constexpr double kUnsure_m = 0.002;                  // walk to a seam: x0 does not count
+constexpr double kBesideSeam_m = 0.004;  // walk to a seam: changed
+constexpr double kUnsure_m = 0.002;      // walk to a seam: x0 does not count
 constexpr double kSmoothing_m = 0.001;
-constexpr double kUnsure = 1e-6;  // c there: above 0 for skin that nothing else moves
+constexpr double kUnsure = 1e-6;   // c there: above 0 for skin that nothing else moves
 constexpr double kDropped = 1e-4;  // a node with less is left out
 
 /// The nodes that move each vertex of the skin, with their weights, by node.
@@ -50,7 +50,7 @@ double difference(const Weights::value_type& a, const Weights::value_type& b) {
   double sum = 0;
   std::size_t i = 0, j = 0;
   while (i < a.size() || j < b.size()) {
-    const int node = j == b.size()                                 ? a[i].first
+    const int node = j == b.size()                              ? a[i].first
                      : i == a.size() || b[j].first < a[i].first ? b[j].first
                                                                 : a[i].first;
     double off = 0;
@@ -80,8 +80,7 @@ std::vector<int> at_seams(const TriMesh& skin, const TriMesh& outer,
           (skin.points.row(Eigen::Index(a)) - skin.points.row(Eigen::Index(b))).norm();
       const double element = 0.5 * (element_at(outer, anchors[a]) + element_at(outer, anchors[b]));
       const double most = std::max(kPerMetre, kPerElement / element) * length;
-      if (difference(weights[a], weights[b]) > std::min(most, kAnyLength))
-        at[a] = at[b] = 1;
+      if (difference(weights[a], weights[b]) > std::min(most, kAnyLength)) at[a] = at[b] = 1;
     }
   std::vector<int> vertices;
   for (std::size_t v = 0; v < at.size(); ++v)
@@ -130,8 +129,8 @@ class Part {
           right.push_back({int(i), {int(it.row()), -it.value()}});
     }
     number_nodes(right, weights);
-    Eigen::MatrixXd known = Eigen::MatrixXd::Zero(Eigen::Index(vertices.size()),
-                                                  Eigen::Index(nodes_.size()));
+    Eigen::MatrixXd known =
+        Eigen::MatrixXd::Zero(Eigen::Index(vertices.size()), Eigen::Index(nodes_.size()));
     for (const auto& [row, from] : right)
       for (const auto& [node, weight] : weights[std::size_t(from.first)])
         known(row, column_.at(node)) += from.second * weight;

@@ -277,9 +277,8 @@ std::shared_ptr<const TissueMesh> TissueMeshBuilder::build() {
     out.on_border.assign(out.volume.surface_nodes(), 0);
     for (int v : outer_border(out.volume.outer)) out.on_border[v] = 1;
     anchor_skin(out, landmarks_);
-    out.rim = smooth_seams(
-        out.skin, out.volume.outer, out.anchors,
-        rim_vertices(out.skin, out.volume.outer, out.anchors, out.on_border));
+    out.rim = smooth_seams(out.skin, out.volume.outer, out.anchors,
+                           rim_vertices(out.skin, out.volume.outer, out.anchors, out.on_border));
     move_repeated_vertices(out);
   });
   return std::move(mesh_);
