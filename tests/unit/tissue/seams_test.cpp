@@ -123,7 +123,13 @@ TEST_F(Seams, WhatIsEqualEverywhereStaysSo) {
   }
 }
 
-/// It stays: a step of 2 mm in the places that move the skin is within its own elements.
+/// Its neighbours share no node in any case.
+TEST_F(Seams, ASkinAsCoarseAsTheSurfaceIsAsItWas) {
+  skin_ = sheet(0.004);
+  anchor(0.006);
+  EXPECT_TRUE(smooth_seams(skin_, outer_, anchors_, {}).empty());
+}
+
 TEST_F(Seams, WithoutASeamTheRimIsAsItWas) {
   anchor(0);
   const std::vector<RimVertex> given = {{7, {1, 2}, {0.25, 0.75}}};

@@ -21,6 +21,8 @@ using Sparse = Eigen::SparseMatrix<double>;
 
 // Differences of weights that are a seam: per metre, per edge of the simulated surface, at most.
 constexpr double kPerMetre = 1500, kPerElement = 6, kAnyLength = 1.9;
+// Ends of an edge longer than this, in edges of the simulated surface, need share no node.
+constexpr double kShort = 0.5;
 constexpr double kBesideSeam_m = 0.004;  // walk to a seam: changed
 constexpr double kUnsure_m = 0.002;      // walk to a seam: x0 does not count
 constexpr double kSmoothing_m = 0.001;
@@ -79,6 +81,7 @@ std::vector<int> at_seams(const TriMesh& skin, const TriMesh& outer,
       const double length =
           (skin.points.row(Eigen::Index(a)) - skin.points.row(Eigen::Index(b))).norm();
       const double element = 0.5 * (element_at(outer, anchors[a]) + element_at(outer, anchors[b]));
+      if (length > kShort * element) continue;
       const double most = std::max(kPerMetre, kPerElement / element) * length;
       if (difference(weights[a], weights[b]) > std::min(most, kAnyLength)) at[a] = at[b] = 1;
     }
@@ -107,47 +110,49 @@ std::vector<std::vector<int>> parts_of(const TriMesh& skin, std::vector<char> in
   return parts;
 }
 
-/// Solves for the vertices of one part; those outside it stay as they are.
-class Part {
+/// A term of a right side: `factor` times the displacement of `vertex` by rim and anchors.
+struct Term {
+  int row, vertex;
+  double factor;
+};
+
+/// The displacement of the vertices of one part, which solves the equations of the header. Those
+/// outside it stay as they are.
+class SmoothPart {
  public:
   /// `counts`: c of the header, times area, per vertex of the skin. `stiffness`: l^4 L A^-1 L.
-  Part(const std::vector<int>& vertices, const Sparse& stiffness, const Eigen::VectorXd& counts,
-       const Weights& weights)
+  SmoothPart(const std::vector<int>& vertices, const Sparse& stiffness,
+             const Eigen::VectorXd& counts, const Weights& weights)
       : vertices_(vertices) {
+    const auto size = Eigen::Index(vertices.size());
     std::map<int, int> row_of;
     for (std::size_t i = 0; i < vertices.size(); ++i) row_of[vertices[i]] = int(i);
     std::vector<Eigen::Triplet<double>> entries;
-    std::vector<std::pair<int, std::pair<int, double>>> right;  // row, vertex, factor
-    for (std::size_t i = 0; i < vertices.size(); ++i) {
-      const int v = vertices[i];
-      entries.emplace_back(int(i), int(i), counts[v]);
-      right.push_back({int(i), {v, counts[v]}});
+    std::vector<Term> right;
+    for (int row = 0; row < int(size); ++row) {
+      const int v = vertices[std::size_t(row)];
+      entries.emplace_back(row, row, counts[v]);
+      right.push_back({row, v, counts[v]});
       for (Sparse::InnerIterator it(stiffness, v); it; ++it)
         if (const auto other = row_of.find(int(it.row())); other != row_of.end())
-          entries.emplace_back(int(i), other->second, it.value());
+          entries.emplace_back(row, other->second, it.value());
         else
-          right.push_back({int(i), {int(it.row()), -it.value()}});
+          right.push_back({row, int(it.row()), -it.value()});
     }
-    number_nodes(right, weights);
-    Eigen::MatrixXd known =
-        Eigen::MatrixXd::Zero(Eigen::Index(vertices.size()), Eigen::Index(nodes_.size()));
-    for (const auto& [row, from] : right)
-      for (const auto& [node, weight] : weights[std::size_t(from.first)])
-        known(row, column_.at(node)) += from.second * weight;
-    Sparse matrix(Eigen::Index(vertices.size()), Eigen::Index(vertices.size()));
+    Sparse matrix(size, size);
     matrix.setFromTriplets(entries.begin(), entries.end());
     const Eigen::SimplicialLDLT<Sparse> factor(matrix);
     if (factor.info() != Eigen::Success)
       throw std::logic_error("skin near a seam has nothing that moves it");
-    solved_ = factor.solve(known);
+    solved_ = factor.solve(by_nodes(right, weights, size));
   }
 
   /// Small weights are left out, and the others scaled to a sum of 1.
-  RimVertex vertex(std::size_t i) const {
-    RimVertex one{vertices_[i], {}, {}};
+  RimVertex vertex(std::size_t row) const {
+    RimVertex one{vertices_[row], {}, {}};
     double sum = 0;
     for (std::size_t n = 0; n < nodes_.size(); ++n) {
-      const double weight = solved_(Eigen::Index(i), Eigen::Index(n));
+      const double weight = solved_(Eigen::Index(row), Eigen::Index(n));
       if (std::abs(weight) < kDropped) continue;
       one.node.push_back(nodes_[n]);
       one.weight.push_back(weight);
@@ -158,18 +163,24 @@ class Part {
   }
 
  private:
-  void number_nodes(const std::vector<std::pair<int, std::pair<int, double>>>& right,
-                    const Weights& weights) {
-    for (const auto& [row, from] : right)
-      for (const auto& [node, weight] : weights[std::size_t(from.first)]) column_[node] = 0;
-    for (auto& [node, column] : column_) {
-      column = Eigen::Index(nodes_.size());
+  /// The terms as weights of nodes, one column for each; fills nodes_.
+  Eigen::MatrixXd by_nodes(const std::vector<Term>& terms, const Weights& weights,
+                           Eigen::Index rows) {
+    std::map<int, Eigen::Index> column;
+    for (const Term& term : terms)
+      for (const auto& [node, weight] : weights[std::size_t(term.vertex)]) column[node] = 0;
+    for (auto& [node, place] : column) {
+      place = Eigen::Index(nodes_.size());
       nodes_.push_back(node);
     }
+    Eigen::MatrixXd out = Eigen::MatrixXd::Zero(rows, Eigen::Index(nodes_.size()));
+    for (const Term& term : terms)
+      for (const auto& [node, weight] : weights[std::size_t(term.vertex)])
+        out(term.row, column.at(node)) += term.factor * weight;
+    return out;
   }
 
   const std::vector<int>& vertices_;
-  std::map<int, Eigen::Index> column_;
   std::vector<int> nodes_;
   Eigen::MatrixXd solved_;  // |vertices| x |nodes|
 };
@@ -201,7 +212,7 @@ std::vector<RimVertex> smooth_seams(const TriMesh& skin, const TriMesh& outer,
     all.emplace(vertex, std::move(one));
   }
   for (const std::vector<int>& vertices : parts_of(skin, std::move(near))) {
-    const Part part(vertices, stiffness, counts, weights);
+    const SmoothPart part(vertices, stiffness, counts, weights);
     for (std::size_t i = 0; i < vertices.size(); ++i)
       all.insert_or_assign(vertices[i], part.vertex(i));
   }

@@ -19,8 +19,8 @@ struct Anchor;
 /// A seam crosses an edge of the skin if the weights of its ends' nodes differ by more than 1.5 per
 /// mm, and by more than 6 per edge length of the simulated surface, summed over nodes; elsewhere
 /// the differences are near 0.5 and 2. A difference of more than 1.9 is always a seam: with 2, the
-/// ends have no node in common. Within 4 mm of a seam, along the skin, the displacement x
-/// of the skin minimises
+/// ends have no node in common. Edges longer than half of one of the surface are not looked at.
+/// Within 4 mm of a seam, along the skin, the displacement x of the skin minimises
 ///   sum over vertices of area (c (x - x0)^2 + l^4 (laplacian of x)^2),   l = 1 mm,
 /// where x0 is the displacement by `rim` and anchors, and c is 1e-6 within 2 mm of the seam and
 /// 1 beyond. It is a weighted sum of the nodes' displacements, as before. `anchors`: one per vertex
