@@ -63,25 +63,31 @@ double difference(const Weights::value_type& a, const Weights::value_type& b) {
   return sum;
 }
 
-/// Mean edge length of the triangle of the simulated surface on which the anchor lies.
-double element_at(const TriMesh& outer, const Anchor& anchor) {
-  double sum = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    sum += (outer.points.row(anchor.node[k]) - outer.points.row(anchor.node[(k + 1) % 3])).norm();
-  return sum / 3;
+/// Mean edge lengths of the triangles of the simulated surface on which the anchors lie.
+std::vector<double> elements_at(const TriMesh& outer, const std::vector<Anchor>& anchors) {
+  std::vector<double> element;
+  element.reserve(anchors.size());
+  for (const Anchor& anchor : anchors) {
+    double sum = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (outer.points.row(anchor.node[k]) - outer.points.row(anchor.node[(k + 1) % 3])).norm();
+    element.push_back(sum / 3);
+  }
+  return element;
 }
 
 /// The ends of the edges that seams cross.
 std::vector<int> at_seams(const TriMesh& skin, const TriMesh& outer,
                           const std::vector<Anchor>& anchors, const Weights& weights) {
+  const std::vector<double> elements = elements_at(outer, anchors);
   std::vector<char> at(anchors.size(), 0);
   for (const auto t : skin.triangles.rowwise())
     for (int k = 0; k < 3; ++k) {
       const auto a = std::size_t(t[k]), b = std::size_t(t[(k + 1) % 3]);
       const double length =
           (skin.points.row(Eigen::Index(a)) - skin.points.row(Eigen::Index(b))).norm();
-      const double element = 0.5 * (element_at(outer, anchors[a]) + element_at(outer, anchors[b]));
-      if (length > kShort * element) continue;
+      const double element = 0.5 * (elements[a] + elements[b]);
+      if ((at[a] && at[b]) || length > kShort * element) continue;
       const double most = std::max(kPerMetre, kPerElement / element) * length;
       if (difference(weights[a], weights[b]) > std::min(most, kAnyLength)) at[a] = at[b] = 1;
     }
@@ -91,16 +97,32 @@ std::vector<int> at_seams(const TriMesh& skin, const TriMesh& outer,
   return vertices;
 }
 
+/// The triangles around the vertices with `flagged` and around their neighbours.
+TriMesh around(const TriMesh& skin, std::vector<char> flagged) {
+  std::vector<char> take;
+  for (int ring = 0; ring < 2; ++ring) {
+    take = touching(skin.triangles, flagged);
+    for (std::size_t f = 0; f < take.size() && ring == 0; ++f)
+      for (int k = 0; k < 3 && take[f]; ++k)
+        flagged[std::size_t(skin.triangles(Eigen::Index(f), k))] = 1;
+  }
+  TriMesh part{skin.points, Triangles(std::count(take.begin(), take.end(), 1), 3)};
+  Eigen::Index row = 0;
+  for (std::size_t f = 0; f < take.size(); ++f)
+    if (take[f]) part.triangles.row(row++) = skin.triangles.row(Eigen::Index(f));
+  return part;
+}
+
 /// The connected parts of the vertices with `inside`.
 std::vector<std::vector<int>> parts_of(const TriMesh& skin, std::vector<char> inside) {
-  const auto around = vertex_neighbours(skin.triangles, skin.points.rows());
+  const auto neighbours = vertex_neighbours(skin.triangles, skin.points.rows());
   std::vector<std::vector<int>> parts;
   for (std::size_t start = 0; start < inside.size(); ++start) {
     if (!inside[start]) continue;
     std::vector<int> part = {int(start)};
     inside[start] = 0;
     for (std::size_t next = 0; next < part.size(); ++next)
-      for (const int v : around[std::size_t(part[next])])
+      for (const int v : neighbours[std::size_t(part[next])])
         if (inside[std::size_t(v)]) {
           inside[std::size_t(v)] = 0;
           part.push_back(v);
@@ -203,7 +225,8 @@ std::vector<RimVertex> smooth_seams(const TriMesh& skin, const TriMesh& outer,
     counts[row] = std::max(area[row], kUnsure * area.mean()) * (walk[v] < kUnsure_m ? kUnsure : 1);
     inverse_area[row] = area[row] > 0 ? 1 / area[row] : 0;
   }
-  const Sparse laplacian = cotangent_laplacian(skin);
+  const TriMesh beside = around(skin, near);
+  const Sparse laplacian = cotangent_laplacian(beside);
   const Sparse stiffness =
       std::pow(kSmoothing_m, 4) * (laplacian * inverse_area.asDiagonal() * laplacian);
   std::map<int, RimVertex> all;
@@ -211,7 +234,7 @@ std::vector<RimVertex> smooth_seams(const TriMesh& skin, const TriMesh& outer,
     const int vertex = one.vertex;
     all.emplace(vertex, std::move(one));
   }
-  for (const std::vector<int>& vertices : parts_of(skin, std::move(near))) {
+  for (const std::vector<int>& vertices : parts_of(beside, std::move(near))) {
     const SmoothPart part(vertices, stiffness, counts, weights);
     for (std::size_t i = 0; i < vertices.size(); ++i)
       all.insert_or_assign(vertices[i], part.vertex(i));
