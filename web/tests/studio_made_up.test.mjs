@@ -60,6 +60,24 @@ describe('the studio with a made-up face', { concurrency: false }, () => {
     await close();
   });
 
+  test('the table of figures fits its panel, however long the words in it', async () => {
+    const { page, complaints, close } = await openMadeUp(browser, () => [], { viewport: { width: 1440, height: 900 } });
+    await page.locator('#tab-figures').dispatchEvent('click');
+    const widths = await page.evaluate(() => {
+      for (const cell of document.querySelectorAll('.corner-table td')) {
+        const small = document.createElement('small');
+        small.textContent = 'now 10.5 mm, unfiltered';
+        cell.append(small);
+      }
+      for (const name of document.querySelectorAll('.corner-table tbody th')) name.append(' right zygomatic branch');
+      const table = document.querySelector('.corner-table');
+      return [table.getBoundingClientRect().right, table.parentElement.getBoundingClientRect().right];
+    });
+    assert.ok(widths[0] > 0 && widths[0] <= widths[1] + 0.5, `it ends at ${widths[0]}, its panel at ${widths[1]} px`);
+    assert.deepEqual(complaints, []);
+    await close();
+  });
+
   test('a face is called by what it changes, until somebody names it', async () => {
     const { page, complaints, session, close } = await openMadeUp(browser, () => []);
     const names = () => page.locator('#tabs .tab-name').allInnerTexts();
