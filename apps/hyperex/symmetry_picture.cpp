@@ -78,8 +78,7 @@ void draw_curves_of(render::Canvas& canvas, const metrics::SymmetryCurve& curve)
   std::vector<render::PlotCurve> s = {{curve.s, render::palette::ink, ""}};
   if (!floor.empty())
     s.push_back({floor, render::palette::cut,
-                 fmt::format("noise floor of {:.2g} mm jitter; below it: undecided",
-                             1e3 * curve.jitter_m)});
+                 fmt::format("undecided below: {:.2g} mm of jitter", 1e3 * curve.jitter_m)});
   const render::TimePlot upper{
       70, 90, 800, 230, time, render::span_of(sides), "xi, relative change of length"};
   const std::string label = fmt::format(

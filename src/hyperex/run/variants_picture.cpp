@@ -200,10 +200,9 @@ void draw_variant_symmetry(const Results& base, const std::vector<VariantRun>& r
   for (const double value : own.floors()) floor.push_back(std::log(value));
   if (!floor.empty())
     s_curves.push_back({floor, render::palette::cut,
-                        own.mesh_noise.empty()
-                            ? fmt::format("noise floor of {:.2g} mm jitter; below it: undecided",
-                                          1e3 * own.jitter_m)
-                            : std::string("floor of the mesh and of jitter; below it: undecided")});
+                        own.mesh_noise.empty() ? fmt::format("undecided below: {:.2g} mm of jitter",
+                                                             1e3 * own.jitter_m)
+                                               : std::string("undecided below: mesh and jitter")});
   const render::TimePlot upper{70,
                                y + 18,
                                800,
