@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "hyperex/geometry/node_areas.hpp"
+#include "support/sheet_mesh.hpp"
 
 namespace hyperex {
 namespace {
@@ -13,20 +14,12 @@ namespace {
 /// A unit square of n x n cells with inner vertices moved, so that no two triangles are alike. The
 /// height is that of a paraboloid of this curvature.
 TriMesh sheet(int n, double curvature) {
-  TriMesh mesh{Points((n + 1) * (n + 1), 3), Triangles(2 * n * n, 3)};
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i) {
-      const bool inner = i > 0 && j > 0 && i < n && j < n;
-      const double x = (i + (inner ? 0.2 * std::sin(3 * i + 5 * j) : 0)) / n;
-      const double y = (j + (inner ? 0.2 * std::cos(7 * i - 2 * j) : 0)) / n;
-      mesh.points.row(j * (n + 1) + i) << x, y, curvature * (x * x + y * y) / 2;
-    }
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int v = j * (n + 1) + i;
-      mesh.triangles.row(2 * (j * n + i)) << v, v + 1, v + n + 1;
-      mesh.triangles.row(2 * (j * n + i) + 1) << v + 1, v + n + 2, v + n + 1;
-    }
+  TriMesh mesh = test::sheet_mesh({n, n}, {1, 1}).mesh;
+  for (int j = 1; j < n; ++j)
+    for (int i = 1; i < n; ++i)
+      mesh.points.row(j * (n + 1) + i).head<2>() +=
+          0.2 / n * Eigen::RowVector2d(std::sin(3 * i + 5 * j), std::cos(7 * i - 2 * j));
+  mesh.points.col(2) = curvature / 2 * mesh.points.leftCols<2>().rowwise().squaredNorm();
   return mesh;
 }
 

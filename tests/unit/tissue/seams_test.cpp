@@ -9,23 +9,16 @@
 
 #include "hyperex/geometry/closest_point.hpp"
 #include "hyperex/tissue/mesh/tissue_mesh.hpp"
+#include "support/sheet_mesh.hpp"
 
 namespace hyperex::tissue {
 namespace {
 
 /// A flat square of 40 mm around the origin.
 TriMesh sheet(double step_m) {
-  const int n = int(std::lround(0.04 / step_m));
-  TriMesh mesh{Points((n + 1) * (n + 1), 3), Triangles(2 * n * n, 3)};
-  for (int j = 0; j <= n; ++j)
-    for (int i = 0; i <= n; ++i)
-      mesh.points.row(j * (n + 1) + i) << i * step_m - 0.02, j * step_m - 0.02, 0;
-  for (int j = 0; j < n; ++j)
-    for (int i = 0; i < n; ++i) {
-      const int v = j * (n + 1) + i;
-      mesh.triangles.row(2 * (j * n + i)) << v, v + 1, v + n + 1;
-      mesh.triangles.row(2 * (j * n + i) + 1) << v + 1, v + n + 2, v + n + 1;
-    }
+  const int cells = int(std::lround(0.04 / step_m));
+  TriMesh mesh = test::sheet_mesh({cells, cells}, {0.04, 0.04}).mesh;
+  mesh.points.leftCols<2>().array() -= 0.02;
   return mesh;
 }
 
@@ -153,7 +146,6 @@ TEST_F(Seams, MayLieBetweenTheRimAndItsNeighbours) {
 
 /// Skin that no other moves, such as an island of the scan, keeps a smooth displacement.
 TEST_F(Seams, AnIslandOfSkinIsMovedAsAWhole) {
-  skin_ = sheet(0.001);
   anchor(0.006);
   // Only the triangles within 3 mm of the origin.
   std::vector<Eigen::Vector3i> kept;

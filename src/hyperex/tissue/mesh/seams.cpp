@@ -99,13 +99,11 @@ std::vector<int> at_seams(const TriMesh& skin, const TriMesh& outer,
 
 /// The triangles around the vertices with `flagged` and around their neighbours.
 TriMesh around(const TriMesh& skin, std::vector<char> flagged) {
-  std::vector<char> take;
-  for (int ring = 0; ring < 2; ++ring) {
-    take = touching(skin.triangles, flagged);
-    for (std::size_t f = 0; f < take.size() && ring == 0; ++f)
-      for (int k = 0; k < 3 && take[f]; ++k)
-        flagged[std::size_t(skin.triangles(Eigen::Index(f), k))] = 1;
-  }
+  const std::vector<char> beside = touching(skin.triangles, flagged);
+  for (std::size_t f = 0; f < beside.size(); ++f)
+    if (beside[f])
+      for (const int v : skin.triangles.row(Eigen::Index(f))) flagged[std::size_t(v)] = 1;
+  const std::vector<char> take = touching(skin.triangles, flagged);
   TriMesh part{skin.points, Triangles(std::count(take.begin(), take.end(), 1), 3)};
   Eigen::Index row = 0;
   for (std::size_t f = 0; f < take.size(); ++f)
