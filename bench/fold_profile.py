@@ -6,7 +6,9 @@ All faces have the vertices of REST in the same order, in mm, +z forward. On bot
 way from the wing of the nose (points 31, 35) to the corner of the mouth (48, 54), the surface is cut across that
 line, from 6 mm on the side of the nose to 26 mm on the side of the cheek. The depth is the greatest distance of the
 cut from a straight line between two of its own points, at most 20 mm apart. Beside a face named truth, the others'
-mean errors of the six depths (mm) and of the grooves' places along the cuts (mm) are printed. Needs Debian's python3-vtk9,
+mean errors of the six depths (mm) and of the grooves' places along the cuts (mm) are printed. Of each face also how far the
+middles of the cheeks go out: the mean displacement along the normal at rest within CHEEK_MM of cheek_L and cheek_R, where
+the landmarks have these. Needs Debian's python3-vtk9,
 python3-scipy and, for pictures, python3-matplotlib."""
 import argparse
 import json
@@ -21,15 +23,30 @@ STEP_MM = 0.25
 ACROSS_MM = np.arange(-6, 26, STEP_MM)
 LONGEST = int(20 / STEP_MM)
 SHARES = (0.3, 0.5, 0.7)
+CHEEK_MM = 15
 SIDES = {"right": ("ibug68_31", "ibug68_48", -1), "left": ("ibug68_35", "ibug68_54", 1)}
 
 
-def points_of(path, count=None):
+def read(path):
     reader = vtk.vtkPLYReader()
     reader.SetFileName(path)
     reader.Update()
-    points = vtk_to_numpy(reader.GetOutput().GetPoints().GetData()).astype(float)[:count]
+    return reader.GetOutput()
+
+
+def points_of(path, count=None):
+    points = vtk_to_numpy(read(path).GetPoints().GetData()).astype(float)[:count]
     return 1e3 * points if np.ptp(points[:, 0]) < 1 else points
+
+
+def outward_normals(path):
+    """Unit normals of the vertices, out of the face (+z in the mean)."""
+    made = vtk.vtkPolyDataNormals()
+    made.SetInputData(read(path))
+    made.SplittingOff()
+    made.Update()
+    normals = vtk_to_numpy(made.GetOutput().GetPointData().GetNormals()).astype(float)
+    return normals if normals[:, 2].mean() > 0 else -normals
 
 
 def profile(points, ala, corner, share, outwards):
@@ -86,6 +103,13 @@ def main():
             error = np.abs(found - grooves["truth"]).mean(axis=0)
             beside = f", off by {error[0]:.2f} mm, in place by {error[1]:.1f} mm"
         print(f"{name:12s} {depths} mean {found[:, 0].mean():.2f} mm{beside}")
+    cheeks = [np.array(landmarks[name], float) for name in ("cheek_L", "cheek_R") if name in landmarks]
+    if cheeks:
+        middle = np.any([np.linalg.norm(rest - cheek, axis=1) < CHEEK_MM for cheek in cheeks], axis=0)
+        normals = outward_normals(given.rest)[middle]
+        for name, points in faces.items():
+            out = ((points - rest)[middle] * normals).sum(axis=1).mean()
+            print(f"{name:12s} middles of the cheeks go out by {out:.2f} mm")
     if given.picture:
         import matplotlib
 

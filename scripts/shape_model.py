@@ -26,6 +26,7 @@ REST_PERCENTILE = 5  # of a weight: the face at rest
 LEAST_SPREAD = 0.1
 CHEEK_SPREAD = 0.2  # of a raised cheek at least: trackers see little of a cheek's skin (docs/muscles.md)
 COUPLING = 0.8
+SMILE_WITH_CHEEK = 0.5  # the mean of two recordings: 0.27 here, 0.71 in action units of another person (docs/muscles.md)
 LEAST_EIGENVALUE = 0.03
 ROUNDS = 100
 UPPER_LIP = (191, 80, 81, 82, 13, 312, 311, 310, 415)
@@ -130,9 +131,16 @@ def may_go_together(a, b):
     return a.startswith(MIDDLE) or b.startswith(MIDDLE)
 
 
+def pairs(names, some, others):
+    """Of each two names (n x n): whether one begins with one of `some` and the other with one of `others`."""
+    a, b = (np.array([n.startswith(group) for n in names]) for group in (some, others))
+    return np.outer(a, b) | np.outer(b, a)
+
+
 def couplings(names, weights):
     """Spreads and correlations of the weights about 0, both sides alike, none across. The correlations are of one
-    person who shows a range of motion; of others COUPLING of them is expected. They are then changed as little as makes
+    person who shows a range of motion; of others COUPLING of them is expected, of a smile and a raised cheek
+    SMILE_WITH_CHEEK. They are then changed as little as makes
     them possible (a positive definite matrix)."""
     moment = weights.T @ weights / len(weights)
     other = [names.index(mirrored(n)) for n in names]
@@ -143,6 +151,8 @@ def couplings(names, weights):
     side = np.array([{"_L": 1, "_R": -1}.get(n[-2:], 0) for n in names])
     kept = np.array([[may_go_together(a, b) for b in names] for a in names])
     correlation = COUPLING * correlation
+    smile_with_cheek = pairs(names, ("mouthSmile",), RAISED_CHEEK)
+    correlation[smile_with_cheek] = SMILE_WITH_CHEEK
     apart = (np.outer(side, side) < 0) | ~kept
     np.fill_diagonal(apart, False)
     for _ in range(ROUNDS):
@@ -155,11 +165,12 @@ def couplings(names, weights):
 
 
 def freer_cheeks(names, spread, correlation):
-    """With CHEEK_SPREAD. A raised cheek then moves more by itself: its covariances with other shapes stay."""
+    """With CHEEK_SPREAD. A raised cheek then moves more by itself: its covariances with other shapes stay, but for its
+    correlation with a smile."""
     cheek = np.array([n.startswith(RAISED_CHEEK) for n in names])
     wider = np.where(cheek, np.maximum(spread, CHEEK_SPREAD), spread)
     narrower = np.outer(spread / wider, spread / wider)
-    narrower[np.ix_(cheek, cheek)] = 1
+    narrower[pairs(names, RAISED_CHEEK, RAISED_CHEEK + ("mouthSmile",))] = 1
     return wider, correlation * narrower
 
 
