@@ -148,7 +148,7 @@ Errors are relative to the excursion after the change, which is small in some of
 {}
 ## Recovery of activations
 Correlation over groups of muscles and draws between true and found sums of activations. The program assumes a standard
-deviation of a point of 0.8 mm (seven) and 1.6 mm (68), as it does with real recordings. With the true 0.3 mm, drawn expressions reach 0.970
+deviation of a point of 0.8 mm (seven) and 1.6 mm (68), as it does with real recordings. With the true 0.3 mm, drawn expressions reach 0.92 or more
 (test `MuscleTwin`).
 
 {})",
