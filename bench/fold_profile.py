@@ -8,8 +8,7 @@ line, from 6 mm on the side of the nose to 26 mm on the side of the cheek. The d
 cut from a straight line between two of its own points, at most 20 mm apart. Beside a face named truth, the others'
 mean errors of the six depths (mm) and of the grooves' places along the cuts (mm) are printed. Of each face also how far the
 middles of the cheeks go out: the mean displacement along the normal at rest within CHEEK_MM of cheek_L and cheek_R, where
-the landmarks have these. Needs Debian's python3-vtk9,
-python3-scipy and, for pictures, python3-matplotlib."""
+the landmarks have these. Needs Debian's python3-vtk9, python3-scipy and, for pictures, python3-matplotlib."""
 import argparse
 import json
 
@@ -27,22 +26,22 @@ CHEEK_MM = 15
 SIDES = {"right": ("ibug68_31", "ibug68_48", -1), "left": ("ibug68_35", "ibug68_54", 1)}
 
 
-def read(path):
+def surface_of(path):
     reader = vtk.vtkPLYReader()
     reader.SetFileName(path)
     reader.Update()
     return reader.GetOutput()
 
 
-def points_of(path, count=None):
-    points = vtk_to_numpy(read(path).GetPoints().GetData()).astype(float)[:count]
+def points_of(surface, count=None):
+    points = vtk_to_numpy(surface.GetPoints().GetData()).astype(float)[:count]
     return 1e3 * points if np.ptp(points[:, 0]) < 1 else points
 
 
-def outward_normals(path):
+def outward_normals(surface):
     """Unit normals of the vertices, out of the face (+z in the mean)."""
     made = vtk.vtkPolyDataNormals()
-    made.SetInputData(read(path))
+    made.SetInputData(surface)
     made.SplittingOff()
     made.Update()
     normals = vtk_to_numpy(made.GetOutput().GetPointData().GetNormals()).astype(float)
@@ -78,7 +77,8 @@ def main():
     parser.add_argument("faces", nargs="+", metavar="NAME=FACE.ply")
     parser.add_argument("--picture")
     given = parser.parse_args()
-    rest = points_of(given.rest)
+    surface = surface_of(given.rest)
+    rest = points_of(surface)
     tree = cKDTree(rest)
     with open(given.landmarks) as stream:
         landmarks = json.load(stream)["points"]
@@ -86,7 +86,7 @@ def main():
     faces = {"rest": rest}
     for face in given.faces:
         name, path = face.split("=", 1)
-        faces[name] = points_of(path, len(rest))
+        faces[name] = points_of(surface_of(path), len(rest))
     cuts = {
         name: [
             profile(points, vertex[ala], vertex[corner], share, outwards)
@@ -106,7 +106,7 @@ def main():
     cheeks = [np.array(landmarks[name], float) for name in ("cheek_L", "cheek_R") if name in landmarks]
     if cheeks:
         middle = np.any([np.linalg.norm(rest - cheek, axis=1) < CHEEK_MM for cheek in cheeks], axis=0)
-        normals = outward_normals(given.rest)[middle]
+        normals = outward_normals(surface)[middle]
         for name, points in faces.items():
             out = ((points - rest)[middle] * normals).sum(axis=1).mean()
             print(f"{name:12s} middles of the cheeks go out by {out:.2f} mm")

@@ -140,8 +140,7 @@ def pairs(names, some, others):
 def couplings(names, weights):
     """Spreads and correlations of the weights about 0, both sides alike, none across. The correlations are of one
     person who shows a range of motion; of others COUPLING of them is expected, of a smile and a raised cheek
-    SMILE_WITH_CHEEK. They are then changed as little as makes
-    them possible (a positive definite matrix)."""
+    SMILE_WITH_CHEEK. They are then changed as little as makes them possible (a positive definite matrix)."""
     moment = weights.T @ weights / len(weights)
     other = [names.index(mirrored(n)) for n in names]
     moment = (moment + moment[np.ix_(other, other)]) / 2
@@ -151,8 +150,7 @@ def couplings(names, weights):
     side = np.array([{"_L": 1, "_R": -1}.get(n[-2:], 0) for n in names])
     kept = np.array([[may_go_together(a, b) for b in names] for a in names])
     correlation = COUPLING * correlation
-    smile_with_cheek = pairs(names, ("mouthSmile",), RAISED_CHEEK)
-    correlation[smile_with_cheek] = SMILE_WITH_CHEEK
+    correlation[pairs(names, ("mouthSmile",), RAISED_CHEEK)] = SMILE_WITH_CHEEK
     apart = (np.outer(side, side) < 0) | ~kept
     np.fill_diagonal(apart, False)
     for _ in range(ROUNDS):

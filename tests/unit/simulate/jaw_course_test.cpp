@@ -120,7 +120,7 @@ TEST_P(JawOfOwnBones, TurnsAboutItsOwnHeads) {
       result.performance.jaw_now_from_rest[std::size_t(result.performance.peak_frame)];
   const double angle = Eigen::AngleAxisd(jaw.linear()).angle();
   EXPECT_GT(angle, 0.1);
-  // The heads may slide by a standard deviation of 2 mm.
+  // The heads may slide: MuscleOptions::slide_sigma_m.
   EXPECT_LT((jaw * heads_ - heads_).norm(), GetParam() > 0 ? 0.0012 : 0.004);
 }
 
