@@ -97,7 +97,9 @@ simulate::SimulationOptions options_of(const session::FaceSession& session) {
   take("prior", m.activation_sigma);
   take("ring_prior", m.ring_sigma);
   take("tone", m.tone_sigma);
-  take("slide", m.slide_sigma_m, mm);
+  take("slide_aside", m.slide_sigma_m.x(), mm);
+  take("slide_up", m.slide_sigma_m.y(), mm);
+  take("slide_forward", m.slide_sigma_m.z(), mm);
   take("patch_all", m.many_patch_m, mm);
   if (const std::string& file = given["muscles"]; !file.empty())
     m.own = muscles::changed_table(m.table(), muscles::read_muscles(read_file(file), file), {});

@@ -115,7 +115,7 @@ def check(page, muscles, sources):
         if (TEMPLATE, key) not in seen:
             said.append(f"{key} of the template has no row")
     for file, struct in WHOLE:
-        for line in re.findall(r"^  (?:double|BoneLayer) ([^()]*?);", of_struct(sources(file), struct), re.M | re.S):
+        for line in re.findall(r"^  (?:double|BoneLayer|Vec3) ([^()]*?);", of_struct(sources(file), struct), re.M | re.S):
             for name in re.findall(r"(\w+)\s*(?:=|\{)", line):
                 if (file, f"{struct}::{name}") not in seen:
                     said.append(f"{struct}::{name} has no row")

@@ -11,11 +11,12 @@ namespace hyperex::estimate {
 
 /// The muscles of a face in pairs, and what is known of their activations beforehand.
 struct MusclePrior {
-  std::vector<int> left, right;                     ///< pairs: indices of the muscles
-  std::vector<char> tone;                           ///< per muscle: its activation may go below 0
-  Eigen::VectorXd sigma;                            ///< per pair: of the mean of both activations
-  Eigen::MatrixXd together;                         ///< per pair: correlations of these means
-  double opening_rad, turn_rad, tilt_rad, slide_m;  ///< 1 sigma of the jaw's pose
+  std::vector<int> left, right;            ///< pairs: indices of the muscles
+  std::vector<char> tone;                  ///< per muscle: its activation may go below 0
+  Eigen::VectorXd sigma;                   ///< per pair: of the mean of both activations
+  Eigen::MatrixXd together;                ///< per pair: correlations of these means
+  double opening_rad, turn_rad, tilt_rad;  ///< 1 sigma of the jaw's pose
+  Vec3 slide_m;
 };
 
 /// Everything about a face that does not depend on its recordings.

@@ -93,8 +93,8 @@ Eigen::MatrixXd Posterior::prior_precision(const Eigen::VectorXd& x) const {
         out(li, rj) += p(i, j) - q(i, j);
         out(ri, lj) += p(i, j) - q(i, j);
       }
-    const double sigma[6] = {known.opening_rad, known.turn_rad, known.tilt_rad,
-                             known.slide_m,     known.slide_m,  known.slide_m};
+    const double sigma[6] = {known.opening_rad, known.turn_rad,    known.tilt_rad,
+                             known.slide_m.x(), known.slide_m.y(), known.slide_m.z()};
     for (int k = 0; k < 6; ++k) set(u.jaw(e) + k, 1, sigma[k]);
     const Observation& seen = observations_[std::size_t(e)];
     set(u.head(e), 3, seen.head_turn_rad);

@@ -322,7 +322,9 @@ struct MuscleOptions {
   double activation_sigma = 0.29;  ///< prior 1 sigma of an activation
   double ring_sigma = 0.15;        ///< the same for muscles that act as rings
   double tone_sigma = 0.16;        ///< the same below rest, for muscles that may relax
-  double slide_sigma_m = 0.0045;   ///< prior 1 sigma of the jaw's slide
+  /// Prior 1 sigma of the jaw's slide aside, up and forward: its heads glide forward on the skull,
+  /// and hardly aside.
+  Vec3 slide_sigma_m{0.001, 0.003, 0.0045};
   /// Prior correlation of a muscle's activation with that of its counterpart.
   double side_correlation = 0.3;
   /// Radius of the patches of skin over which the residual at many points is spread; at few points

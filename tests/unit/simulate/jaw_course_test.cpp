@@ -48,7 +48,7 @@ TEST_P(JawCourse, CarriesTheChinAsItWasRecorded) {
     widest = std::max(widest, Eigen::AngleAxisd(jaw.linear()).angle());
   }
   EXPECT_NEAR(widest, result.report.greatest_opening_deg * M_PI / 180, 0.02);
-  EXPECT_GT(widest, 0.075) << "the jaw turns more than it slides";
+  EXPECT_GT(widest, 0.08) << "the jaw turns more than it slides";
 }
 
 TEST_P(JawCourse, IsKnownAtStillsToo) {
@@ -121,7 +121,7 @@ TEST_P(JawOfOwnBones, TurnsAboutItsOwnHeads) {
   const double angle = Eigen::AngleAxisd(jaw.linear()).angle();
   EXPECT_GT(angle, 0.1);
   // The heads may slide: MuscleOptions::slide_sigma_m.
-  EXPECT_LT((jaw * heads_ - heads_).norm(), GetParam() > 0 ? 0.0012 : 0.004);
+  EXPECT_LT((jaw * heads_ - heads_).norm(), GetParam() > 0 ? 0.0012 : 0.0035);
 }
 
 INSTANTIATE_TEST_SUITE_P(FartherBack, JawOfOwnBones, testing::Values(0.0, 0.025),

@@ -58,7 +58,7 @@ class FitOfPoints : public testing::Test {
 
   const io::Landmarks landmarks_ = test::small_face().landmarks;
   const JawKinematics jaw_{landmarks_, nullptr};
-  const FitPriors wide_{1e3, 1e3, 1e3, 1e3, 1e3, 1e3, 1e3};
+  const FitPriors wide_{1e3, 1e3, 1e3, 1e3, 1e3, 1e3, Vec3::Constant(1e3)};
   std::mt19937 random_{3};
   std::normal_distribution<double> normal_;
 };

@@ -177,7 +177,7 @@ const std::vector<OptionCase>& muscle_cases() {
       scaled("activation_sigma", &M::activation_sigma),
       scaled("ring_sigma", &M::ring_sigma),
       scaled("tone_sigma", &M::tone_sigma),
-      scaled("slide_sigma_m", &M::slide_sigma_m),
+      {"muscles.slide_sigma_m", {all}, [](Options& o) { o.muscles.slide_sigma_m *= 2; }},
       scaled("side_correlation", &M::side_correlation),
       scaled("many_patch_m", &M::many_patch_m, false),
       {"muscles.shape_prior", {all}, [](Options& o) { o.muscles.shape_prior = false; }},

@@ -79,8 +79,7 @@ FitResult MuscleFit::fit(const Eigen::VectorXd& displacement) {
   const Eigen::Index muscles = response_.of_muscles.cols(), all = muscles + 6;
   const double weight = 1 / sigma_m_;
   JawPose prior;
-  prior << priors_.opening_rad, priors_.turn_rad, priors_.tilt_rad, priors_.slide_m,
-      priors_.slide_m, priors_.slide_m;
+  prior << priors_.opening_rad, priors_.turn_rad, priors_.tilt_rad, priors_.slide_m;
   Eigen::VectorXd lower = Eigen::VectorXd::Zero(all);
   lower.tail<6>().setConstant(-std::numeric_limits<double>::infinity());
   for (Eigen::Index m = 0; m < muscles; ++m)

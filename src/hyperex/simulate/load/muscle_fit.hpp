@@ -31,7 +31,8 @@ struct FitPriors {
   double activation = 0.2;
   double ring = 0.2;  ///< muscles that act as rings
   double tone = 0.1;  ///< below rest, of muscles that may relax
-  double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02, slide_m = 0.002;
+  double opening_rad = 0.35, turn_rad = 0.03, tilt_rad = 0.02;
+  Vec3 slide_m = Vec3::Constant(0.002);  ///< of the jaw: aside, up and forward
   /// Per muscle: a factor on activation, ring and tone; empty: all 1.
   Eigen::VectorXd readiness = {};
   /// Per muscle: divides the factor by 1 + yields * opening (rad of jaw opening), since an open jaw
