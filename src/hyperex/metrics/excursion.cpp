@@ -8,10 +8,10 @@
 
 #include "hyperex/core/within_95.hpp"
 #include "hyperex/face/same_place.hpp"
-#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
 #include "hyperex/metrics/point_pairs.hpp"
 #include "hyperex/metrics/speed_floor.hpp"
+#include "hyperex/motion/lowpass.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -35,8 +35,8 @@ double greatest(const std::vector<double>& values) {
   return values.empty() ? kNan : values[index_of_greatest(values)];
 }
 
-SmoothTrack smoothed_mm(const motion::Motion& motion, int column, double lowpass_hz) {
-  return lowpassed(motion.time_s, 1e3 * track_of(motion, column), lowpass_hz);
+motion::SmoothTrack smoothed_mm(const motion::Motion& motion, int column, double lowpass_hz) {
+  return motion::lowpassed(motion.time_s, 1e3 * track_of(motion, column), lowpass_hz);
 }
 
 /// The smoothed path of a point, mm, with its distance from the first sample and its speed.
@@ -46,7 +46,7 @@ struct Path {
 };
 
 Path path_of(const motion::Motion& motion, int column, double lowpass_hz) {
-  const SmoothTrack track = smoothed_mm(motion, column, lowpass_hz);
+  const motion::SmoothTrack track = smoothed_mm(motion, column, lowpass_hz);
   Path path{track.value, {}, {}};
   for (Eigen::Index k = 0; k < track.value.rows(); ++k) {
     path.distance_mm.push_back((track.value.row(k) - track.value.row(0)).norm());
@@ -58,7 +58,7 @@ Path path_of(const motion::Motion& motion, int column, double lowpass_hz) {
 SideExcursion side_of(const motion::Motion& motion, const Path& path, double lowpass_hz) {
   SideExcursion side;
   side.excursion_mm = greatest(path.distance_mm);
-  side.peak_speed_mm_s = greatest_inside(motion.time_s, path.speed_mm_s, lowpass_hz);
+  side.peak_speed_mm_s = motion::greatest_inside(motion.time_s, path.speed_mm_s, lowpass_hz);
   Eigen::RowVector3d last = path.position_mm.row(0);
   for (Eigen::Index k = 0; k < path.position_mm.rows(); ++k)
     if (path.position_mm.row(k).allFinite()) {
@@ -152,7 +152,7 @@ double noise_left(const std::vector<double>& time_s, const Path& path, std::size
     if (k == sample) own = measured_s.size();
     if (path.position_mm.row(Eigen::Index(k)).allFinite()) measured_s.push_back(time_s[k]);
   }
-  return lowpassed_noise(measured_s, own, lowpass_hz);
+  return motion::lowpassed_noise(measured_s, own, lowpass_hz);
 }
 
 /// The share of jitter (of its variance) that the filter leaves, as the mean over the first and the

@@ -6,7 +6,7 @@
 #include <limits>
 #include <stdexcept>
 
-#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/motion/lowpass.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -79,7 +79,9 @@ void add_mesh_floor(Excursions& excursions, const motion::Motion& run, const mot
   Commissure& mouth = excursions.commissure;
   if (mouth.left < 0 || mouth.right < 0) return;
   const auto track_mm = [&](int column) {
-    return lowpassed(twin.time_s, 1e3 * track_of(twin, column), excursions.lowpass_hz).value;
+    return motion::lowpassed(twin.time_s, 1e3 * motion::track_of(twin, column),
+                             excursions.lowpass_hz)
+        .value;
   };
   mouth.twin_left_track_mm = track_mm(mouth.right);
   mouth.twin_right_track_mm = track_mm(mouth.left);

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include "hyperex/core/within_95.hpp"
-#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/point_pairs.hpp"
+#include "hyperex/motion/lowpass.hpp"
 
 namespace hyperex::metrics {
 namespace {
@@ -24,7 +24,8 @@ Sensitivity sensitivity_of(const motion::Motion& steady,
                            double lowpass_hz) {
   Sensitivity out;
   double most = 0;
-  const Points track = lowpassed(steady.time_s, track_of(steady, column), lowpass_hz).value;
+  const Points track =
+      motion::lowpassed(steady.time_s, motion::track_of(steady, column), lowpass_hz).value;
   for (std::size_t k = 1; k < steady.positions.size(); ++k) {
     const Vec3 p = track.row(Eigen::Index(k)).transpose();
     const Vec3 way = p - track.row(0).transpose();

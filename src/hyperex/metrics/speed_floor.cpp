@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/motion/lowpass.hpp"
 
 namespace hyperex::metrics {
 
@@ -29,16 +29,16 @@ SpeedFloor speed_floor(const std::vector<double>& time_s, double jitter_m, doubl
   std::vector<double> peaks, paths;
   double squares = 0;
   Points noise_mm(Eigen::Index(time_s.size()), 3);
-  const LowpassFilter filter(time_s, cutoff_hz);
+  const motion::LowpassFilter filter(time_s, cutoff_hz);
   const std::size_t tracks = std::clamp(kSamples / time_s.size(), kFewestTracks, kMostTracks);
   for (std::size_t track = 0; track < tracks; ++track) {
     for (Eigen::Index k = 0; k < noise_mm.rows(); ++k)
       for (Eigen::Index axis = 0; axis < 3; ++axis) noise_mm(k, axis) = normal(engine);
-    const SmoothTrack smooth = filter(noise_mm);
+    const motion::SmoothTrack smooth = filter(noise_mm);
     const Eigen::Index steps = noise_mm.rows() - 1;
     std::vector<double> speed;
     for (Eigen::Index k = 0; k <= steps; ++k) speed.push_back(smooth.rate.row(k).norm());
-    peaks.push_back(greatest_inside(time_s, speed, cutoff_hz));
+    peaks.push_back(motion::greatest_inside(time_s, speed, cutoff_hz));
     paths.push_back(
         (smooth.value.bottomRows(steps) - smooth.value.topRows(steps)).rowwise().norm().sum());
     squares += smooth.rate.squaredNorm() / double(noise_mm.rows());

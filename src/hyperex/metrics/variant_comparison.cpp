@@ -5,7 +5,7 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/metrics/curve_spread.hpp"
-#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/motion/lowpass.hpp"
 #include "hyperex/motion/resample.hpp"
 
 namespace hyperex::metrics {
@@ -16,7 +16,7 @@ constexpr double kNearMouth_m = 0.025;
 /// Positions of a landmark over time; empty if there is none with that name.
 Points track_of(const motion::Motion& m, const std::string& name) {
   const int row = m.index_of(name);
-  return row < 0 ? Points() : metrics::track_of(m, row);
+  return row < 0 ? Points() : motion::track_of(m, row);
 }
 
 double farthest(const Points& track) {
@@ -116,8 +116,9 @@ void measure_commissures(const ComparedRun& base, const ComparedRun& run, Varian
       };
       c.commissure_left = change(Side::left);
       c.commissure_right = change(Side::right);
-      const motion::Motion own = lowpassed(base.performance.landmarks, before.lowpass_hz),
-                           run_own = lowpassed(run.performance.landmarks, excursions.lowpass_hz);
+      const motion::Motion own = motion::lowpassed(base.performance.landmarks, before.lowpass_hz),
+                           run_own =
+                               motion::lowpassed(run.performance.landmarks, excursions.lowpass_hz);
       c.left_from_base = distance_from_base(own, run_own, left);
       const int right = excursions.pairs[i].right;
       c.right_from_base = distance_from_base(own, run_own, right);
@@ -190,7 +191,7 @@ DistanceFromBase distance_from_base(const motion::Motion& base, const motion::Mo
 
 double along_base_mm(const motion::Motion& base, const motion::Motion& run, int column) {
   if (column < 0 || column >= int(base.names.size())) return std::nan("");
-  return along_base_mm(1e3 * track_of(base, column), 1e3 * track_of(run, column));
+  return along_base_mm(1e3 * motion::track_of(base, column), 1e3 * motion::track_of(run, column));
 }
 
 double along_base_mm(const Points& base_mm, const Points& run_mm) {

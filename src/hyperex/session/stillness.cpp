@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "hyperex/core/quantile.hpp"
-#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/lowpass.hpp"
 #include "hyperex/session/recording_jitter.hpp"
 
 namespace hyperex::session {
@@ -34,8 +34,8 @@ double way_of(const Points& track) {
 /// of 100 recordings none is farther. Each coordinate of the distance has the noise of two samples.
 double farthest_by_jitter(const motion::Motion& m) {
   const double noise =
-      std::hypot(metrics::lowpassed_noise(m.time_s, 0, kStillness_hz),
-                 metrics::lowpassed_noise(m.time_s, m.time_s.size() / 2, kStillness_hz));
+      std::hypot(motion::lowpassed_noise(m.time_s, 0, kStillness_hz),
+                 motion::lowpassed_noise(m.time_s, m.time_s.size() / 2, kStillness_hz));
   // The tail of a normal vector's length: of n lengths none exceeds sqrt(2 ln(n / p)), but for a
   // share of some p.
   const double count = double(m.time_s.size()) * double(m.names.size());
@@ -50,11 +50,11 @@ struct WithinJitter {
 /// Nothing where a point moves beyond its jitter, or where that is not known.
 std::optional<WithinJitter> within_jitter(const motion::Motion& m) {
   if (median_step(m.time_s) > motion::Motion::kSmoothUpTo_s) return std::nullopt;
-  const metrics::LowpassFilter filter(m.time_s, kStillness_hz);
+  const motion::LowpassFilter filter(m.time_s, kStillness_hz);
   std::vector<double> ways_m;
   WithinJitter found;
   for (int p = 0; p < int(m.names.size()); ++p) {
-    ways_m.push_back(way_of(filter(metrics::track_of(m, p)).value));
+    ways_m.push_back(way_of(filter(motion::track_of(m, p)).value));
     found.way_m = std::max(found.way_m, ways_m.back());
     if (found.way_m >= kSurelyMoves_m) return std::nullopt;
   }

@@ -14,8 +14,8 @@
 #include "hyperex/face/same_place.hpp"
 #include "hyperex/geometry/transform.hpp"
 #include "hyperex/metrics/excursion.hpp"
-#include "hyperex/metrics/lowpass.hpp"
 #include "hyperex/metrics/nan.hpp"
+#include "hyperex/motion/lowpass.hpp"
 #include "hyperex/motion/read_motion.hpp"
 #include "hyperex/motion/still_points.hpp"
 #include "hyperex/motion/try_stabilise.hpp"
@@ -357,7 +357,7 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
     face.extent_doubts.push_back(still->text);
   settle_jitter(steady.motion, stated_jitter_m, face);
   const double cutoff_hz = face.jitter_m > 0 ? metrics::kUsualLowpass_hz : 0;
-  const motion::Motion smooth = metrics::lowpassed(steady.motion, cutoff_hz);
+  const motion::Motion smooth = motion::lowpassed(steady.motion, cutoff_hz);
   const auto columns = face_points_of(smooth);
   ByFacePoint<Points> tracks;
   for (std::size_t i = 0; i < kFacePoints; ++i)
@@ -369,8 +369,8 @@ MeasuredFace measure(const motion::Motion& motion, const VisitsFile& visits,
   face.peak_s = smooth.time_s[peak] - smooth.time_s.front();
   face.half_s = smooth.time_s[first_half_of(movement, peak)] - smooth.time_s.front();
   settle_points(columns, tracks, peak, face);
-  const double rest_noise = metrics::lowpassed_noise(smooth.time_s, 0, cutoff_hz),
-               peak_noise = metrics::lowpassed_noise(smooth.time_s, peak, cutoff_hz);
+  const double rest_noise = motion::lowpassed_noise(smooth.time_s, 0, cutoff_hz),
+               peak_noise = motion::lowpassed_noise(smooth.time_s, peak, cutoff_hz);
   settle_noise(columns, rest_noise, peak_noise, face);
   if (!steady.poses.empty()) settle_pose(steady.poses[peak], rest_noise, peak_noise, face);
   settle_curves(columns, smooth, face);

@@ -84,7 +84,7 @@ TEST_F(MuscleTwin, GroupsOfMusclesAreFoundFromLandmarks) {
     }
     Points moved = carrier * Eigen::Map<const Points>(nodes.data(), carrier.cols(), 3);
     if (k > 0) moved += kNoise_m * Points::NullaryExpr(68, 3, [&] { return normal(random_); });
-    motion.motion.time_s.push_back(k / 30.0);
+    motion.motion.time_s.push_back(0.5 * k);  // poses, not a motion
     motion.motion.positions.push_back(rest + moved);
   }
   const HeldLoad load =

@@ -10,7 +10,7 @@
 #include <string>
 
 #include "hyperex/core/error.hpp"
-#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/motion/lowpass.hpp"
 #include "hyperex/visits/scale_between.hpp"
 #include "smiling_face.hpp"
 
@@ -158,12 +158,12 @@ TEST(MeasuredFace, NoiseAfterTheFilterIsThatOfManyDraws) {
     for (int draw = 0; draw < draws / 3; ++draw) {
       const Points noise =
           Points::NullaryExpr(60, 3, [&](Eigen::Index, Eigen::Index) { return normal(random); });
-      squares += metrics::lowpassed(time_s, noise, 6).value.row(Eigen::Index(sample)).squaredNorm();
+      squares += motion::lowpassed(time_s, noise, 6).value.row(Eigen::Index(sample)).squaredNorm();
     }
-    EXPECT_NEAR(metrics::lowpassed_noise(time_s, sample, 6), std::sqrt(squares / draws), 0.04)
+    EXPECT_NEAR(motion::lowpassed_noise(time_s, sample, 6), std::sqrt(squares / draws), 0.04)
         << sample;
   }
-  EXPECT_EQ(metrics::lowpassed_noise(time_s, 5, 0), 1);
+  EXPECT_EQ(motion::lowpassed_noise(time_s, 5, 0), 1);
 }
 
 TEST(MeasuredFace, JitterThatDoesNotShowIsUnknown) {

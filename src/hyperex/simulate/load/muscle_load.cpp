@@ -11,6 +11,8 @@
 
 #include "hyperex/face/face_frame.hpp"
 #include "hyperex/face/ibug.hpp"
+#include "hyperex/motion/jitter.hpp"
+#include "hyperex/motion/least_risk_filter.hpp"
 #include "hyperex/muscles/muscle_template.hpp"
 #include "hyperex/simulate/drive/input_shapes.hpp"
 #include "hyperex/simulate/drive/skin_places.hpp"
@@ -71,6 +73,18 @@ Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& mot
   for (Eigen::Index k = 0; k < out.cols(); ++k)
     out.col(k) = driven.of(gain * (motion.positions[std::size_t(k)] - motion.positions.front()));
   return out;
+}
+
+/// The same without the white noise of the recording, which muscles do not follow.
+Eigen::MatrixXd denoised(const Driven& driven, const motion::Motion& motion, double gain,
+                         Eigen::Index samples) {
+  constexpr Eigen::Index beyond = 200;  // so that the filter does not end with the samples
+  const auto count = std::min(samples + beyond, Eigen::Index(motion.positions.size()));
+  const Eigen::MatrixXd smooth =
+      motion::least_risk_filtered({motion.time_s.begin(), motion.time_s.begin() + count},
+                                  displacements_of(driven, motion, gain, count),
+                                  gain * motion::jitter_of_motion(motion, driven.rows));
+  return smooth.leftCols(samples).colwise() - smooth.col(0);
 }
 
 MuscleFit fit_of(const MuscleModel& model, const JawKinematics& jaw, const Driven& driven,
@@ -296,11 +310,13 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
-  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, options.drive.gain, samples);
+  const double gain = options.drive.gain;
+  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, gain, samples),
+                        steady = denoised(driven, motion.motion, gain, samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
-    const FitResult fitted = fit.fit(seen.col(k));
+    const FitResult fitted = fit.fit(steady.col(k));
     store_sample(fitted, members, k, muscle);
     muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
     for (Eigen::Index m = 0; m < count; ++m) {
@@ -310,7 +326,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
       if (load.wide_bands) course(count + m, k) = wide;
     }
     course.col(k).tail<12>() = jaw.motion(fitted.jaw);
-    left_over.col(k) = fitted.left_over;
+    left_over.col(k) = fitted.left_over + seen.col(k) - steady.col(k);
   }
   muscle.time_s = load.time_s;
   const FaceParts parts(model.lines(), options.muscles.table(), muscle.prior_sigma.col(0));

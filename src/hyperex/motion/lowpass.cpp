@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/metrics/lowpass.hpp"
+#include "hyperex/motion/lowpass.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <utility>
 
-#include "hyperex/metrics/nan.hpp"
-
-namespace hyperex::metrics {
+namespace hyperex::motion {
 
 namespace {
 
 using Eigen::Index;
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 SmoothTrack unsmoothed(const std::vector<double>& time_s, const Points& track) {
   SmoothTrack out{track, Points::Constant(track.rows(), 3, kNan)};
@@ -164,14 +165,14 @@ SmoothTrack lowpassed(const std::vector<double>& time_s, const Points& track, do
   return LowpassFilter(time_s, cutoff_hz)(track);
 }
 
-Points track_of(const motion::Motion& motion, int column) {
+Points track_of(const Motion& motion, int column) {
   Points track(Index(motion.positions.size()), 3);
   for (Index k = 0; k < track.rows(); ++k)
     track.row(k) = motion.positions[std::size_t(k)].row(column);
   return track;
 }
 
-motion::Motion lowpassed(motion::Motion motion, double cutoff_hz) {
+Motion lowpassed(Motion motion, double cutoff_hz) {
   if (!(cutoff_hz > 0)) return motion;
   const LowpassFilter filter(motion.time_s, cutoff_hz);
   for (int p = 0; p < int(motion.names.size()); ++p) {
@@ -213,4 +214,4 @@ double greatest_inside(const std::vector<double>& time_s, const std::vector<doub
   return std::isnan(inside) ? all : inside;
 }
 
-}  // namespace hyperex::metrics
+}  // namespace hyperex::motion

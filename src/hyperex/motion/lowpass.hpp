@@ -6,7 +6,7 @@
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/motion/motion.hpp"
 
-namespace hyperex::metrics {
+namespace hyperex::motion {
 
 /// A track after low-pass filtering, and its rate of change.
 struct SmoothTrack {
@@ -41,10 +41,10 @@ class LowpassFilter {
 };
 
 /// The positions of one point of a motion over time, N x 3, m.
-Points track_of(const motion::Motion& motion, int column);
+Points track_of(const Motion& motion, int column);
 
 /// All tracks of a motion; with a cut-off of 0 the motion as it is.
-motion::Motion lowpassed(motion::Motion motion, double cutoff_hz);
+Motion lowpassed(Motion motion, double cutoff_hz);
 
 /// The standard deviation of a filtered sample if the track is white noise of standard deviation 1;
 /// 1 for a cut-off of 0 and for fewer than three samples. `time_s`: of the measured samples. The
@@ -61,4 +61,4 @@ double end_margin_s(double cutoff_hz);
 double greatest_inside(const std::vector<double>& time_s, const std::vector<double>& values,
                        double cutoff_hz);
 
-}  // namespace hyperex::metrics
+}  // namespace hyperex::motion
