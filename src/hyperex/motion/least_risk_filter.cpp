@@ -11,7 +11,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr std::size_t kFewest = 20;  // as jitter_of_motion()
+constexpr std::size_t kFewestTimes = 20;  // as jitter_of_motion()
 constexpr double kFiner = 1.25;      // ratio of one cut-off to the next
 
 /// `tracks` (a multiple of 3 rows) through the filter.
@@ -38,7 +38,7 @@ double kept_share(const std::vector<double>& time_s, double cutoff_hz) {
 Eigen::MatrixXd least_risk_filtered(const std::vector<double>& time_s,
                                     const Eigen::MatrixXd& tracks, double noise_m,
                                     double least_hz) {
-  if (!(noise_m > 0) || time_s.size() < kFewest || tracks.rows() == 0) return tracks;
+  if (!(noise_m > 0) || time_s.size() < kFewestTimes || tracks.rows() == 0) return tracks;
   const double rate_hz = double(time_s.size() - 1) / (time_s.back() - time_s.front());
   const double variance = noise_m * noise_m;
   Eigen::MatrixXd best = tracks;

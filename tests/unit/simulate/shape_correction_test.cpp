@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <random>
 
 #include "hyperex/expression/shape_model.hpp"
 #include "hyperex/face/ibug.hpp"
@@ -189,6 +190,37 @@ TEST_F(LoadWithShapes, HoldingForcesMakeTheDisplacementThatTheyStateInEquilibriu
       EXPECT_LT((moved.segment<3>(3 * nodes[i]) - displaced.col(c).segment<3>(3 * Eigen::Index(i)))
                     .norm(),
                 1e-9);
+  }
+}
+
+TEST_F(LoadWithShapes, ActivationsDoNotFollowTheNoiseOfTheRecordingButThePointsDo) {
+  const AlignedMotion smooth = test::mouth_opening(face_.landmarks, 8, 60, 60);
+  AlignedMotion noisy = smooth;
+  std::mt19937 random(8);
+  std::normal_distribution<double> noise_m(0, 3e-4);
+  for (std::size_t k = 1; k < noisy.motion.positions.size(); ++k)
+    for (double& x : noisy.motion.positions[k].reshaped()) x += noise_m(random);
+  AlignedMotion poses = noisy;  // too far apart to tell noise from motion
+  for (double& t : poses.motion.time_s) t *= 30;
+
+  const Eigen::MatrixXd truth = load(smooth, false).muscles.activation;
+  const HeldLoad held = load(noisy, false);
+  const double error = (held.muscles.activation - truth).norm(),
+               unfiltered = (load(poses, false).muscles.activation - truth).norm();
+  EXPECT_LT(error, 0.6 * unfiltered);
+
+  Points rest(Eigen::Index(points_.size()), 3);
+  for (std::size_t i = 0; i < points_.size(); ++i)
+    rest.row(Eigen::Index(i)) = points_[i].rest.transpose();
+  const CarrierMatrix carrier =
+      carriers(face_.mesh, skin_places(face_.mesh, test::seven_points(), rest));
+  const Eigen::VectorXd moved = static_response(held.force * held.course.col(40));
+  const Points places = carrier * Eigen::Map<const Points>(moved.data(), carrier.cols(), 3);
+  for (std::size_t i = 0; i < points_.size(); ++i) {
+    const int row = noisy.motion.index_of(points_[i].name);
+    const Vec3 seen =
+        (noisy.motion.positions[40].row(row) - noisy.motion.positions[0].row(row)).transpose();
+    EXPECT_LT((places.row(Eigen::Index(i)).transpose() - seen).norm(), 1.5e-4) << points_[i].name;
   }
 }
 
