@@ -12,7 +12,7 @@ namespace {
 using Eigen::Index;
 
 constexpr std::size_t kFewestTimes = 20;  // as jitter_of_motion()
-constexpr double kFiner = 1.25;      // ratio of one cut-off to the next
+constexpr double kFiner = 1.25;           // ratio of one cut-off to the next
 
 /// `tracks` (a multiple of 3 rows) through the filter.
 Eigen::MatrixXd through(const LowpassFilter& filter, const Eigen::MatrixXd& tracks) {

@@ -102,6 +102,16 @@ MuscleFit fit_of(const MuscleModel& model, const JawKinematics& jaw, const Drive
       jaw, muscle_prior(model.lines(), options), sigma, std::move(tone), std::move(ring));
 }
 
+/// What the activations make the narrow and, where there are any, the wide bands pull.
+Eigen::VectorXd in_bands(const Eigen::VectorXd& activation, const MuscleFit& fit, bool wide_bands) {
+  if (!wide_bands) return activation;
+  const Eigen::VectorXd wide =
+      activation.unaryExpr([&](double a) { return fit.wide_share(a) * a; });
+  Eigen::VectorXd out(2 * activation.size());
+  out << activation - wide, wide;
+  return out;
+}
+
 /// Displacements of the patches' nodes (3 |patch nodes| x n) as the field between the driven points
 /// has them where these are displaced by the columns of `of_points` (3 P).
 Eigen::MatrixXd field_in_patches(const DrivenSkin& patches, const Driven& driven,
@@ -319,13 +329,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
     const FitResult fitted = fit.fit(steady.col(k));
     store_sample(fitted, members, k, muscle);
     muscle.jaw_opening_deg[k] = fitted.jaw[0] * 180 / std::numbers::pi;
-    for (Eigen::Index m = 0; m < count; ++m) {
-      const double a = fitted.activation[m];
-      const double wide = load.wide_bands ? fit.wide_share(a) * a : 0;
-      course(m, k) = a - wide;
-      if (load.wide_bands) course(count + m, k) = wide;
-    }
-    course.col(k).tail<12>() = jaw.motion(fitted.jaw);
+    course.col(k) << in_bands(fitted.activation, fit, load.wide_bands), jaw.motion(fitted.jaw);
     left_over.col(k) = fitted.left_over + seen.col(k) - steady.col(k);
   }
   muscle.time_s = load.time_s;
