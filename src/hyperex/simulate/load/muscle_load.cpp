@@ -80,11 +80,12 @@ Eigen::MatrixXd denoised(const Driven& driven, const motion::Motion& motion, dou
                          Eigen::Index samples) {
   constexpr Eigen::Index beyond = 200;  // so that the filter does not end with the samples
   const auto count = std::min(samples + beyond, Eigen::Index(motion.positions.size()));
-  const Eigen::MatrixXd smooth =
+  Eigen::MatrixXd smooth =
       motion::least_risk_filtered({motion.time_s.begin(), motion.time_s.begin() + count},
                                   displacements_of(driven, motion, gain, count),
                                   gain * motion::jitter_of_motion(motion, driven.rows));
-  return smooth.leftCols(samples).colwise() - smooth.col(0);
+  smooth.col(0).setZero();  // the face at rest; the filter knows one side of it alone
+  return smooth.leftCols(samples);
 }
 
 MuscleFit fit_of(const MuscleModel& model, const JawKinematics& jaw, const Driven& driven,
