@@ -19,6 +19,9 @@ std::vector<double> times(int count, double rate_hz) {
   return t;
 }
 
+// White noise sampled every dt, filtered by 1 / (1 + (f / fc)^4). The variance of its time
+// derivative is
+//   2 s^2 dt (2 pi)^2 fc^3 int x^2 / (1 + x^4)^2 dx = 2 s^2 dt (2 pi)^2 fc^3 pi sqrt(2) / 16.
 TEST(SpeedFloor, IsThatOfWhiteNoise) {
   const auto t = times(1200, 120);
   const double jitter_m = 0.2e-3;

@@ -73,9 +73,6 @@ TEST(Lowpass, AStraightLineStaysOne) {
   EXPECT_EQ(lowpassed(t, line, 0).value, line);
 }
 
-// White noise sampled every dt, filtered by 1 / (1 + (f / fc)^4). The variance of its time
-// derivative is
-//   2 s^2 dt (2 pi)^2 fc^3 int x^2 / (1 + x^4)^2 dx = 2 s^2 dt (2 pi)^2 fc^3 pi sqrt(2) / 16.
 /// What the spline minimises, at values f with the second derivatives g at the inner samples of a
 /// natural spline through them.
 double cost(const std::vector<double>& t, const Eigen::VectorXd& y, const Eigen::VectorXd& f) {

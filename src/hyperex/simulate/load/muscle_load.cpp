@@ -75,17 +75,23 @@ Eigen::MatrixXd displacements_of(const Driven& driven, const motion::Motion& mot
   return out;
 }
 
-/// The same without the white noise of the recording, which muscles do not follow.
-Eigen::MatrixXd denoised(const Driven& driven, const motion::Motion& motion, double gain,
-                         Eigen::Index samples) {
+/// Displacements of the driven points: 3 P x samples, m.
+struct PointCourses {
+  Eigen::MatrixXd recorded;
+  Eigen::MatrixXd steady;  ///< without the white noise of the recording; muscles follow these
+};
+
+PointCourses courses_of(const Driven& driven, const motion::Motion& motion, double gain,
+                        Eigen::Index samples) {
   constexpr Eigen::Index beyond = 200;  // so that the filter does not end with the samples
   const auto count = std::min(samples + beyond, Eigen::Index(motion.positions.size()));
-  Eigen::MatrixXd smooth =
-      motion::least_risk_filtered({motion.time_s.begin(), motion.time_s.begin() + count},
-                                  displacements_of(driven, motion, gain, count),
+  const Eigen::MatrixXd all = displacements_of(driven, motion, gain, count);
+  const Eigen::MatrixXd smooth =
+      motion::least_risk_filtered({motion.time_s.begin(), motion.time_s.begin() + count}, all,
                                   gain * motion::jitter_of_motion(motion, driven.rows));
-  smooth.col(0).setZero();  // the face at rest; the filter knows one side of it alone
-  return smooth.leftCols(samples);
+  PointCourses out{all.leftCols(samples), smooth.leftCols(samples)};
+  out.steady.col(0).setZero();  // the face at rest; the filter knows one side of it alone
+  return out;
 }
 
 MuscleFit fit_of(const MuscleModel& model, const JawKinematics& jaw, const Driven& driven,
@@ -321,9 +327,7 @@ HeldLoad muscle_load(const tissue::TissueMesh& mesh, const io::Landmarks& landma
   resize(muscle, count, members.rows(), samples);
   Eigen::MatrixXd course = Eigen::MatrixXd::Zero(of_jaw + 12, samples);
   Eigen::MatrixXd left_over(3 * Eigen::Index(driven.rows.size()), samples);
-  const double gain = options.drive.gain;
-  const Eigen::MatrixXd seen = displacements_of(driven, motion.motion, gain, samples),
-                        steady = denoised(driven, motion.motion, gain, samples);
+  const auto [seen, steady] = courses_of(driven, motion.motion, options.drive.gain, samples);
   for (Eigen::Index k = 0; k < samples; ++k) {
     if (between) between();
     load.time_s.push_back(motion.motion.time_s[std::size_t(k)] - motion.motion.time_s.front());
