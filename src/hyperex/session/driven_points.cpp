@@ -13,7 +13,7 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/face/same_place.hpp"
-#include "hyperex/session/lid_middles.hpp"
+#include "hyperex/session/lid_points.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -83,7 +83,7 @@ bool is_of_a_part(int number) {
 bool is_further(const motion::Motion& motion, const std::vector<std::string>& driven,
                 const std::string& name) {
   if (is_driven(motion, driven, name)) return false;
-  if (std::ranges::find(kLidMiddles, name) != kLidMiddles.end()) return false;  // not recorded
+  if (std::ranges::find(kLidPoints, name) != kLidPoints.end()) return false;  // not recorded
   const auto number = face::ibug_number_of_place(name);
   if (!number) return true;
   const std::string listed = face::ibug(*number);
@@ -148,7 +148,7 @@ void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& po
     if (!part.joins || reach_m(motion, part) < part.moves_m) continue;
     for (int i = part.first; i <= part.last; ++i) join(face::ibug(i));
     if (part.first == kFirstOfLids)
-      for (const char* name : kLidMiddles) join(name);
+      for (const char* name : kLidPoints) join(name);
   }
 }
 

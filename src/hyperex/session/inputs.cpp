@@ -13,7 +13,7 @@
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/idle_keys.hpp"
-#include "hyperex/session/lid_middles.hpp"
+#include "hyperex/session/lid_points.hpp"
 #include "hyperex/session/one_sided.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
@@ -153,7 +153,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
       const Vec3 left = (corners->outer[1] - corners->outer[0]).normalized();
       Eigen::Matrix3d scan_from_face;
       scan_from_face << left, corners->forward.cross(left), corners->forward;
-      add_lid_middles(in.motion, in.scan.mesh, scan_from_face);
+      add_lid_points(in.motion, in.scan.mesh, scan_from_face);
     }
   }
   in.jitter_m *= in.motion.scan_from_motion.scale;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "hyperex/session/lid_middles.hpp"
+#include "hyperex/session/lid_points.hpp"
 
 #include <gmock/gmock.h>
 
@@ -49,9 +49,9 @@ simulate::AlignedMotion blink(double at_points_mm) {
   return aligned;
 }
 
-TEST(LidMiddles, CloseWhereTheEyeIsWidest) {
+TEST(LidPoints, CloseWhereTheEyeIsWidest) {
   simulate::AlignedMotion aligned = blink(3.6);
-  add_lid_middles(aligned, lids(3.6), Eigen::Matrix3d::Identity());
+  add_lid_points(aligned, lids(3.6), Eigen::Matrix3d::Identity());
   ASSERT_EQ(aligned.motion.names.size(), 6u);
   EXPECT_EQ(aligned.motion.names[4], "lid_middle_upper_L");
   EXPECT_EQ(aligned.motion.names[5], "lid_middle_lower_L");
@@ -61,15 +61,47 @@ TEST(LidMiddles, CloseWhereTheEyeIsWidest) {
   EXPECT_NEAR(gap_mm(aligned.motion.positions[1]), 0, 1e-9);
 }
 
-TEST(LidMiddles, AreNotAddedWhereTheLidsPointsCloseTheEye) {
+TEST(LidPoints, AreNotAddedWhereTheLidsPointsCloseTheEye) {
   simulate::AlignedMotion aligned = blink(4.5);
-  add_lid_middles(aligned, lids(4.5), Eigen::Matrix3d::Identity());
+  add_lid_points(aligned, lids(4.5), Eigen::Matrix3d::Identity());
   EXPECT_EQ(aligned.motion.names.size(), 4u);
 }
 
-TEST(LidMiddles, AreDrivenWithTheLids) {
+/// With the inner corner, which stays, at x.
+simulate::AlignedMotion with_corner(simulate::AlignedMotion aligned, double x_mm) {
+  const auto append = [&](Points& points) {
+    points.conservativeResize(points.rows() + 1, 3);
+    points.bottomRows(1) << 1e-3 * x_mm, 0, 0;
+  };
+  for (Points& now : aligned.motion.positions) append(now);
+  append(aligned.rest);
+  aligned.motion.names.push_back("ibug68_42");
+  return aligned;
+}
+
+/// The lids meet at 15 mm.
+TEST(LidPoints, CloseBesideAnInnerCornerWhoseLandmarkLiesTooFarIn) {
+  simulate::AlignedMotion aligned = with_corner(blink(3.6), -12.5);
+  add_lid_points(aligned, lids(3.6), Eigen::Matrix3d::Identity());
+  const int upper = aligned.motion.index_of("lid_inner_upper_L"),
+            lower = aligned.motion.index_of("lid_inner_lower_L");
+  ASSERT_GE(upper, 0);
+  ASSERT_GE(lower, 0);
+  const auto gap_mm = [&](const Points& at) { return 1e3 * (at(upper, 1) - at(lower, 1)); };
+  EXPECT_NEAR(1e3 * aligned.rest(upper, 0), -10.25, 0.5);
+  EXPECT_NEAR(gap_mm(aligned.rest), 2 * half_aperture_mm(-10.25, 3.6), 0.3);
+  EXPECT_NEAR(gap_mm(aligned.motion.positions[1]), 0, 1e-9);
+}
+
+TEST(LidPoints, AreNotAddedBesideACornerWhereTheLidsMeet) {
+  simulate::AlignedMotion aligned = with_corner(blink(3.6), -15);
+  add_lid_points(aligned, lids(3.6), Eigen::Matrix3d::Identity());
+  EXPECT_EQ(aligned.motion.index_of("lid_inner_upper_L"), -1);
+}
+
+TEST(LidPoints, AreDrivenWithTheLids) {
   simulate::AlignedMotion aligned = blink(3.6);
-  add_lid_middles(aligned, lids(3.6), Eigen::Matrix3d::Identity());
+  add_lid_points(aligned, lids(3.6), Eigen::Matrix3d::Identity());
   EXPECT_THAT(driven_points(scene::Scene(), aligned.motion),
               testing::IsSupersetOf({"lid_middle_upper_L", "lid_middle_lower_L"}));
 }
