@@ -30,7 +30,7 @@ namespace {
 
 struct RigOptions {
   std::filesystem::path scan, landmarks, out;
-  std::string unit, names = "arkit";
+  std::string unit, names = "arkit", skin_tone = "light";
   std::vector<std::string> overrides;
   bool correctives = false;
 };
@@ -159,7 +159,8 @@ void run(const RigOptions& options) {
   {
     Progress progress("writing the rig", 0);
     bytes = report::write_rig_glb(options.out, made.performance, *made.scan, made.teeth.get(),
-                                  made.jaw_axis_m, made.shapes);
+                                  made.jaw_axis_m, made.shapes,
+                                  *value_of<face::SkinTone>(options.skin_tone));
   }
   print_shapes(made, options.out.string(), bytes);
 }
@@ -184,6 +185,11 @@ void add_rig(CLI::App& program) {
                    "Names of the shapes: arkit (jawOpen) or unreal (JawOpen, as its Live Link has "
                    "them)")
       ->check(CLI::IsMember({"arkit", "unreal"}))
+      ->capture_default_str();
+  command
+      ->add_option("--skin-tone", options->skin_tone,
+                   "Skin of a scan with neither a texture nor colours")
+      ->check(CLI::IsMember({"light", "medium", "dark"}))
       ->capture_default_str();
   command->add_flag("--correctives", options->correctives,
                     "Also write shapes for combinations that are no sum of two, as "

@@ -48,8 +48,9 @@ bool is_gaze(const std::string& shape);
 std::optional<Gaze> gaze_of_shape(const std::string& shape);
 
 /// At weight 1 eyeBlink lowers the upper lid kBlinkOfLookDown times as far as eyeLookDown does, and
-/// eyeWide raises it kWideOfLookUp times as far as eyeLookUp does (data/canonical_units.csv).
-inline constexpr double kBlinkOfLookDown = 1, kWideOfLookUp = 0.48;
+/// eyeWide raises it kWideOfLookUp times as far as eyeLookUp does (data/canonical_units.csv, the
+/// mean of its edge's three vertices).
+inline constexpr double kBlinkOfLookDown = 1.04, kWideOfLookUp = 0.5;
 
 /// The weights with which lids follow the gaze once. ARKit's eyeBlink and eyeWide often contain the
 /// motion of the lids with the gaze: in a take of Live Link Face (4,030 rows) eyeBlink rises from 0

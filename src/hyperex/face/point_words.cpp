@@ -94,10 +94,6 @@ constexpr std::array<IbugWords, 68> ibug_points = {{
 const std::map<std::string_view, std::string_view> anatomical = {
     {"exocanthion", "outer corner of the eye (exocanthion)"},
     {"endocanthion", "inner corner of the eye (endocanthion)"},
-    {"lid_middle_upper", "middle of the upper eyelid"},
-    {"lid_middle_lower", "middle of the lower eyelid"},
-    {"lid_inner_upper", "upper eyelid beside the inner corner"},
-    {"lid_inner_lower", "lower eyelid beside the inner corner"},
     {"palpebrale_inferius", "lower eyelid (palpebrale inferius)"},
     {"alare", "wing of the nose (alare)"},
     {"cheilion", "corner of the mouth (cheilion)"},

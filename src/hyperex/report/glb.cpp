@@ -124,7 +124,8 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   begin_face(model);
   GltfArrays arrays(model);
   const SkinView view = skin_view(performance, scan);
-  const tinygltf::Primitive skin = skin_primitive(model, arrays, view, performance, scan);
+  const tinygltf::Primitive skin =
+      skin_primitive(model, arrays, view, performance, scan, options.skin_tone);
   // Added before the morph targets, which may take the rest of options.max_bytes.
   std::optional<FaceBacking> made;
   if (!options.backing) made = face_backing(performance, options.teeth);

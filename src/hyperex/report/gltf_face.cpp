@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "hyperex/report/complexion.hpp"
 #include "hyperex/report/eye_model.hpp"
 #include "hyperex/report/mouth_colours.hpp"
 
@@ -164,7 +165,8 @@ void add_teeth(tinygltf::Model& model, GltfArrays& arrays, const anatomy::Teeth&
 }
 
 tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
-                                   const simulate::Performance& performance, const io::Scan& scan) {
+                                   const simulate::Performance& performance, const io::Scan& scan,
+                                   face::SkinTone tone) {
   const PointsF rest = performance.skin_rest.points.cast<float>();
   const PointsF rest_normals = vertex_normals(rest, performance.skin_rest.triangles);
   tinygltf::Primitive skin;
@@ -179,8 +181,11 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
     skin.attributes["TEXCOORD_0"] =
         arrays.accessor(uv, TINYGLTF_COMPONENT_TYPE_FLOAT, TINYGLTF_TYPE_VEC2, view.uv.rows());
     texture = add_texture(model, arrays, *scan.texture);
-  } else if ((colours = add_colours(arrays, skin_colour(performance, scan))) >= 0) {
-    skin.attributes["COLOR_0"] = colours;
+  } else {
+    io::VertexColours colour = skin_colour(performance, scan);
+    if (colour.rows() == 0) colour = complexion(performance, tone);
+    colours = add_colours(arrays, colour);
+    if (colours >= 0) skin.attributes["COLOR_0"] = colours;
   }
   skin.material = 0;
   model.materials.push_back(skin_material(texture >= 0 || colours >= 0, texture));

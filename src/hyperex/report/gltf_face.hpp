@@ -24,9 +24,11 @@ struct FaceNodes {
 /// A model with one node, "face", for mesh 0, which is still empty.
 void begin_face(tinygltf::Model& model);
 
-/// The skin at rest with its material, the first of the model.
+/// The skin at rest with its material, the first of the model. Without a texture or colours of the
+/// scan it has those of complexion() in `tone`.
 tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, const SkinView& view,
-                                   const simulate::Performance& performance, const io::Scan& scan);
+                                   const simulate::Performance& performance, const io::Scan& scan,
+                                   face::SkinTone tone);
 
 /// The pockets of all openings for a skin at `points` and a jaw, one after the other.
 TriMesh pockets(const std::vector<Opening>& openings, const Points& points,

@@ -126,7 +126,7 @@ PoseTargets targets_of(const TriMesh& rest, const std::vector<RigShape>& shapes)
 
 double write_rig_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                      const io::Scan& scan, const anatomy::Teeth* teeth, const Vec3& jaw_axis_m,
-                     const std::vector<RigShape>& shapes) {
+                     const std::vector<RigShape>& shapes, face::SkinTone tone) {
   const TriMesh& rest = performance.skin_rest;
   check_shapes(shapes, rest.points.rows());
   tinygltf::Model model;
@@ -135,7 +135,7 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   const SkinView view = skin_view(performance, scan);
   tinygltf::Mesh skin;
   skin.name = "skin";
-  skin.primitives.push_back(skin_primitive(model, arrays, view, performance, scan));
+  skin.primitives.push_back(skin_primitive(model, arrays, view, performance, scan, tone));
   const FaceBacking backing = face_backing(performance, teeth);
   const TriMesh cavity = pockets(backing.openings, rest.points);
   if (!backing.openings.empty())

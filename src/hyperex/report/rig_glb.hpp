@@ -10,6 +10,7 @@
 
 #include "hyperex/anatomy/teeth/teeth.hpp"
 #include "hyperex/expression/gaze.hpp"
+#include "hyperex/face/complexion.hpp"
 #include "hyperex/io/scan.hpp"
 #include "hyperex/simulate/performance.hpp"
 
@@ -33,11 +34,13 @@ struct RigShape {
 /// eye_R and eye_L may be turned instead of morphed: their origins are the middle of the jaw's axis
 /// (`jaw_axis_m`) and the middles of the eyes. Displacements below 0.05 mm are left out. Normals of
 /// a corrective are such that with its two shapes they are those of the face that shows both. All
-/// weights are 0. `performance`: its skin at rest and landmarks are used. Returns the size in
+/// weights are 0. `performance`: its skin at rest and landmarks are used. `tone`: of complexion(),
+/// where the scan has neither a texture nor colours. Returns the size in
 /// bytes. Throws InputError where the file cannot be written, std::invalid_argument for shapes of
 /// another skin or correctives before their shapes.
 double write_rig_glb(const std::filesystem::path& file, const simulate::Performance& performance,
                      const io::Scan& scan, const anatomy::Teeth* teeth, const Vec3& jaw_axis_m,
-                     const std::vector<RigShape>& shapes);
+                     const std::vector<RigShape>& shapes,
+                     face::SkinTone tone = face::SkinTone::light);
 
 }  // namespace hyperex::report

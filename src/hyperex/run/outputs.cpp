@@ -268,7 +268,7 @@ std::optional<report::GlbReport> write_outputs(const Results& r,
          if (r.scene.output.glb)
            glb = report::write_glb(directory / "performance.glb", p, r.inputs.scan,
                                    {r.scene.output.glb_tolerance_m, 1e6 * r.scene.output.glb_max_mb,
-                                    r.teeth, r.backing});
+                                    r.teeth, r.scene.output.skin_tone, r.backing});
        },
        [&] {
          write_peak(r, directory);

@@ -13,7 +13,6 @@
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/face/point_words.hpp"
 #include "hyperex/face/same_place.hpp"
-#include "hyperex/session/lid_points.hpp"
 
 namespace hyperex::session {
 namespace {
@@ -28,10 +27,9 @@ struct FacePart {
 // The outline of the face is not driven by itself: trackers of pictures let it slide along the
 // skin. The bridge of the nose does not move. A smile carries the nostrils along by some 2 mm, a
 // sneer moves them farther.
-constexpr int kFirstOfLids = 36;
 constexpr FacePart kParts[] = {{"brows", 17, 26, 2e-3, true},
                                {"nostrils", 31, 35, 3e-3, true},
-                               {"lids", kFirstOfLids, 47, 2e-3, true},
+                               {"lids", 36, 47, 2e-3, true},
                                {"outline of the face", 0, 16, 2e-3, false}};
 
 /// How far a point goes from its first place; 0 where the motion lacks it.
@@ -83,7 +81,6 @@ bool is_of_a_part(int number) {
 bool is_further(const motion::Motion& motion, const std::vector<std::string>& driven,
                 const std::string& name) {
   if (is_driven(motion, driven, name)) return false;
-  if (std::ranges::find(kLidPoints, name) != kLidPoints.end()) return false;  // not recorded
   const auto number = face::ibug_number_of_place(name);
   if (!number) return true;
   const std::string listed = face::ibug(*number);
@@ -140,15 +137,12 @@ bool keeps_to_its_model(const scene::Scene& scene) {
 }
 
 void add_moving_parts(const motion::Motion& motion, std::vector<std::string>& points) {
-  const auto join = [&](const std::string& name) {
-    if (motion.index_of(name) >= 0 && std::ranges::find(points, name) == points.end())
-      points.push_back(name);
-  };
   for (const FacePart& part : kParts) {
     if (!part.joins || reach_m(motion, part) < part.moves_m) continue;
-    for (int i = part.first; i <= part.last; ++i) join(face::ibug(i));
-    if (part.first == kFirstOfLids)
-      for (const char* name : kLidPoints) join(name);
+    for (int i = part.first; i <= part.last; ++i)
+      if (const std::string name = face::ibug(i);
+          motion.index_of(name) >= 0 && std::ranges::find(points, name) == points.end())
+        points.push_back(name);
   }
 }
 

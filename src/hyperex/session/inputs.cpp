@@ -5,7 +5,6 @@
 
 #include <optional>
 
-#include "hyperex/anatomy/eyeballs.hpp"
 #include "hyperex/anatomy/landmark_doubts.hpp"
 #include "hyperex/core/run_together.hpp"
 #include "hyperex/motion/embedded_motion.hpp"
@@ -13,7 +12,6 @@
 #include "hyperex/session/check_names.hpp"
 #include "hyperex/session/driven_points.hpp"
 #include "hyperex/session/idle_keys.hpp"
-#include "hyperex/session/lid_points.hpp"
 #include "hyperex/session/one_sided.hpp"
 #include "hyperex/session/plausible.hpp"
 #include "hyperex/session/problems.hpp"
@@ -147,15 +145,7 @@ void align_recording(const scene::Scene& scene, const io::Landmarks& given,
   check_pairs(steady, at_rest);
   add(in.notes, sides_warning(steady, at_rest));
   in.motion = simulate::align(steady, in.landmarks, scene.alignment.method);
-  if (of_weights(scene)) {
-    simulate::match_lid_apertures(in.motion, steady);
-    if (const auto corners = anatomy::face_corners(in.landmarks)) {
-      const Vec3 left = (corners->outer[1] - corners->outer[0]).normalized();
-      Eigen::Matrix3d scan_from_face;
-      scan_from_face << left, corners->forward.cross(left), corners->forward;
-      add_lid_points(in.motion, in.scan.mesh, scan_from_face);
-    }
-  }
+  if (of_weights(scene)) simulate::match_lid_apertures(in.motion, steady);
   in.jitter_m *= in.motion.scan_from_motion.scale;
   in.notes.push_back(make_note(
       "recording.aligned",

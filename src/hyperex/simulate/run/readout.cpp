@@ -7,6 +7,7 @@
 
 #include "hyperex/face/ibug.hpp"
 #include "hyperex/simulate/contact/rim_places.hpp"
+#include "hyperex/simulate/drive/lid_skin.hpp"
 
 namespace hyperex::simulate {
 namespace {
@@ -94,8 +95,8 @@ Readout::Lips Readout::lips(const motion::Motion& tracks, const std::vector<Poin
   return most;
 }
 
-DrivenPoints::DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& motion,
-                           const std::vector<std::string>& wanted) {
+DrivenPoints::DrivenPoints(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+                           const AlignedMotion& motion, const std::vector<std::string>& wanted) {
   for (const std::string& name : wanted)
     if (const int row = motion.motion.index_of(name); row >= 0) {
       rows.push_back(row);
@@ -103,7 +104,7 @@ DrivenPoints::DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& 
     }
   rest = motion.rest(rows, Eigen::all);
   places = skin_places(mesh, names, rest);
-  rim = rim_through(mesh, places);
+  rim = share_lid_apertures(mesh, landmarks, names, places, rim_through(mesh, places));
 }
 
 std::vector<double> DrivenPoints::off_m(const Performance& performance,

@@ -56,14 +56,16 @@ PointsF in_single_precision(const Points& points);
 /// The points of a motion that drive, and their places on the skin.
 struct DrivenPoints {
   /// `wanted`: names; those that the motion lacks are left out.
-  DrivenPoints(const tissue::TissueMesh& mesh, const AlignedMotion& motion,
-               const std::vector<std::string>& wanted);
+  /// `landmarks`: of the face at rest, the 68 iBUG points among them.
+  DrivenPoints(const tissue::TissueMesh& mesh, const io::Landmarks& landmarks,
+               const AlignedMotion& motion, const std::vector<std::string>& wanted);
 
   std::vector<int> rows;  ///< in the motion
   std::vector<std::string> names;
-  Points rest;                         ///< positions at rest (n x 3, m)
-  std::vector<Match> places;           ///< on the skin
-  std::vector<tissue::RimVertex> rim;  ///< the mesh's rim through these places (rim_through)
+  Points rest;                ///< positions at rest (n x 3, m)
+  std::vector<Match> places;  ///< on the skin
+  /// The mesh's rim through these places (rim_through), with lids that close (share_lid_apertures).
+  std::vector<tissue::RimVertex> rim;
 
   /// Per point: the greatest distance (m) in any frame from where it is driven.
   std::vector<double> off_m(const Performance& performance, const PointCurve& wanted) const;

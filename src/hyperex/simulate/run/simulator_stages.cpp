@@ -44,7 +44,7 @@ bool Simulator::Impl::by_forces() const {
 
 void Simulator::Impl::ensure_skin() {
   stages.points.ensure([&] {
-    return std::make_shared<const DrivenPoints>(*mesh, *motion,
+    return std::make_shared<const DrivenPoints>(*mesh, *landmarks, *motion,
                                                 options.drive.names_in(motion->motion));
   });
   stages.readout.ensure([&] { return std::make_shared<const Readout>(*mesh, *landmarks); });

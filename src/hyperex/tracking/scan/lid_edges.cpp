@@ -18,8 +18,6 @@ namespace {
 constexpr double kMostAside_m = 4e-3, kStep_m = 1e-4;
 /// A surface this far in front of a landmark hides it; the edge lies at most kMostAhead_m in front.
 constexpr double kHides_m = 1e-3, kMostAhead_m = 6e-3;
-/// From a place between the lids: how far their edges are looked for, and how far behind it.
-constexpr double kMostApart_m = 0.01, kMostBehind_m = 4e-3;
 
 /// A landmark of a lid and that of the other lid.
 using LidPoints = std::pair<std::string, std::string>;
@@ -75,36 +73,7 @@ std::optional<Vec3> edge_of(const Vec3& landmark, const Vec3& forward,
   return std::nullopt;
 }
 
-/// The first place of a lid among those seen from between the lids on; nothing where the first one
-/// is of a surface already.
-std::optional<Vec3> first_lid(const Vec3& between, const Vec3& forward,
-                              const std::vector<std::optional<render::Picked>>& seen) {
-  for (std::size_t i = 0; i < seen.size(); ++i) {
-    const double ahead_m = seen[i] ? (seen[i]->point - between).dot(forward) : -1;
-    if (!seen[i] || seen[i]->facing <= 0 || ahead_m < -kMostBehind_m) continue;
-    if (i == 0 || ahead_m > kMostAhead_m) return std::nullopt;
-    return seen[i]->point;
-  }
-  return std::nullopt;
-}
-
 }  // namespace
-
-std::optional<LidEdges> lid_edges_at(const Vec3& between, const TriMesh& scan,
-                                     const Eigen::Matrix3d& scan_from_face) {
-  const Vec3 up = scan_from_face.col(1), forward = scan_from_face.col(2);
-  constexpr auto steps = std::size_t(kMostApart_m / kStep_m) + 1;
-  std::vector<Vec3> places;
-  for (const double way : {1.0, -1.0})
-    for (std::size_t i = 0; i < steps; ++i)
-      places.emplace_back(between + way * double(i) * kStep_m * up);
-  const auto seen = FrontView(scan, between, scan_from_face).at(places);
-  const auto lower_begin = seen.begin() + std::ptrdiff_t(steps);
-  const auto upper = first_lid(between, forward, {seen.begin(), lower_begin});
-  const auto lower = first_lid(between, forward, {lower_begin, seen.end()});
-  if (!upper || !lower) return std::nullopt;
-  return LidEdges{*upper, *lower};
-}
 
 void lids_to_edges(io::Landmarks& landmarks, const TriMesh& scan,
                    const Eigen::Matrix3d& scan_from_face) {

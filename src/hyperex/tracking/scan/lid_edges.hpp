@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
-#include <optional>
-
+// Internal to this room.
 #include "hyperex/geometry/types.hpp"
 #include "hyperex/io/landmarks.hpp"
 
@@ -15,15 +14,5 @@ namespace hyperex::tracking {
 /// `scan_from_face`: its columns are the face's left, up and front directions. Metres.
 void lids_to_edges(io::Landmarks& landmarks, const TriMesh& scan,
                    const Eigen::Matrix3d& scan_from_face);
-
-struct LidEdges {
-  Vec3 upper, lower;
-};
-
-/// The edges of both lids above and below a place between them, as seen from the front. Nothing
-/// where a surface is seen at that place (a closed eye, or a scanned eyeball) or where an edge is
-/// farther than 10 mm. Metres.
-std::optional<LidEdges> lid_edges_at(const Vec3& between, const TriMesh& scan,
-                                     const Eigen::Matrix3d& scan_from_face);
 
 }  // namespace hyperex::tracking
