@@ -14,6 +14,8 @@ if(HYPEREX_COMPONENTS STREQUAL all AND HYPEREX_PROGRAM)
           DESTINATION ${examples_folder} COMPONENT program)
   install(FILES ${examples}/blender/play_weights.py DESTINATION ${examples_folder}/blender
           COMPONENT program)
+  install(FILES ${examples}/rig/vrm_expressions.toml DESTINATION ${examples_folder}/rig
+          COMPONENT program)
   hx_debian_documents(hyperex program)
   install(FILES ${PROJECT_SOURCE_DIR}/THIRD_PARTY.md
           DESTINATION ${CMAKE_INSTALL_DATAROOTDIR}/doc/hyperex COMPONENT program)

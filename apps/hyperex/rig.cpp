@@ -20,6 +20,7 @@
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
 #include "hyperex/rig/face_rig.hpp"
+#include "hyperex/rig/fewer_vertices.hpp"
 #include "hyperex/scene/override.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/session/embedded_scan.hpp"
@@ -29,10 +30,11 @@ namespace hyperex::cli {
 namespace {
 
 struct RigOptions {
-  std::filesystem::path scan, landmarks, out;
+  std::filesystem::path scan, landmarks, recipes, out;
   std::string unit, names = "arkit", skin_tone = "light";
   std::vector<std::string> overrides;
   bool correctives = false;
+  int vertices = 0;  ///< 0: all
 };
 
 /// Makes text of the numbers that JSON lacks, so that their keys refuse them.
@@ -74,6 +76,20 @@ InputError naming_the_option(const InputError& error, const session::Changes& ch
   return InputError(problems);
 }
 
+void thin(io::Scan& scan, const RigOptions& options) {
+  const Eigen::Index before = scan.mesh.points.rows();
+  try {
+    rig::ThinnedScan thinned = rig::with_fewer_vertices(scan, options.vertices);
+    if (thinned.scan.mesh.points.rows() < before)
+      std::cerr << fmt::format(
+          "{} of {} vertices are kept; the others lie up to {:.2f} mm from their surface\n",
+          thinned.scan.mesh.points.rows(), before, 1e3 * thinned.off_m);
+    scan = std::move(thinned.scan);
+  } catch (const std::invalid_argument& error) {
+    throw InputError(options.scan, error.what());
+  }
+}
+
 session::Face face_of(const RigOptions& options) {
   if (options.scan == "embedded") {
     if (!options.landmarks.empty() || !options.unit.empty())
@@ -91,16 +107,20 @@ session::Face face_of(const RigOptions& options) {
     std::cerr << fmt::format("{}: unit {}\n", printable(options.scan.string()),
                              io::unit_note(face.scan));
   if (!options.landmarks.empty()) face.landmarks = io::read_landmarks(options.landmarks);
+  if (options.vertices > 0) thin(face.scan, options);
   return face;
 }
 
 rig::FaceRig rig_of(const RigOptions& options) {
   session::Face face = face_of(options);
   const session::Changes changes = changes_of(options.overrides);
+  std::vector<rig::Recipe> recipes;
+  if (!options.recipes.empty()) recipes = rig::read_recipes(options.recipes);
   try {
     return rig::make_rig(
         std::move(face), changes, session::log_note,
-        options.correctives ? rig::Correctives::of_clashing_pairs : rig::Correctives::none);
+        options.correctives ? rig::Correctives::of_clashing_pairs : rig::Correctives::none,
+        recipes);
   } catch (const InputError& error) {
     throw naming_the_option(error, changes);
   }
@@ -112,7 +132,7 @@ void name_as_unreal_does(std::vector<report::RigShape>& shapes) {
   for (report::RigShape& shape : shapes) {
     char before = '_';
     for (char& letter : shape.name) {
-      if (before == '_') letter += 'A' - 'a';
+      if (before == '_' && letter >= 'a' && letter <= 'z') letter += 'A' - 'a';
       before = letter;
     }
   }
@@ -146,7 +166,7 @@ void print_shapes(const rig::FaceRig& made, const std::string& file, double byte
 }
 
 void run(const RigOptions& options) {
-  check_outputs({options.out}, {options.scan, options.landmarks});
+  check_outputs({options.out}, {options.scan, options.landmarks, options.recipes});
   check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
   take_library_memory();
   rig::FaceRig made = rig_of(options);
@@ -191,6 +211,13 @@ void add_rig(CLI::App& program) {
                    "Skin of a scan with neither a texture nor colours")
       ->check(CLI::IsMember({"light", "medium", "dark"}))
       ->capture_default_str();
+  command
+      ->add_option("--vertices", options->vertices,
+                   "Thin the scan to about that many vertices (default: all up to 60,000)")
+      ->check(CLI::Range(3000, 1000000));
+  command->add_option("--recipes", options->recipes,
+                      "TOML file with shapes of your own, as weights of ARKit's: more shapes, or "
+                      "others in the place of ARKit's (docs/rig.md)");
   command->add_flag("--correctives", options->correctives,
                     "Also write shapes for combinations that are no sum of two, as "
                     "jawOpen_mouthClose; the weight of each is the product of the two weights");

@@ -95,6 +95,22 @@ TEST_F(RigRoundTrip, CorrectivesAreListedAndPlayed) {
   EXPECT_EQ(measured.status, 0) << measured.err;
 }
 
+TEST_F(RigRoundTrip, RecipesAndFewerVerticesAreWritten) {
+  const std::string recipes =
+      std::string(HYPEREX_SOURCE_DIR) + "/examples/rig/vrm_expressions.toml";
+  const Outcome made = call("rig embedded --out rig.glb --recipes " + recipes +
+                            " --vertices 3000 --skin-tone dark --set mesh.element_size_mm=8 "
+                            "--set mesh.layers=1 --set muscles.shape_prior=false");
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, HasSubstr("69 shapes of "));
+  EXPECT_THAT(made.out, testing::ContainsRegex("happy +[1-9][0-9.]+ mm"));
+  EXPECT_THAT(made.out, testing::ContainsRegex("lookLeft +0.0 mm"));
+  EXPECT_THAT(read_file(in("rig.glb")), HasSubstr("\"surprised\""));
+  const Outcome few = call("rig embedded --out few.glb --vertices 100");
+  EXPECT_NE(few.status, 0);
+  EXPECT_THAT(few.err, HasSubstr("--vertices"));
+}
+
 TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   const auto refused = [&](const std::string& arguments, int status, const std::string& part) {
     const Outcome found = call(arguments);
@@ -107,6 +123,9 @@ TEST_F(RigRoundTrip, EachFaultIsSaidInOneLine) {
   refused("symmetry weights.csv --rig none.glb", 2, "none.glb");
   refused("symmetry weights.csv --rig rig.glb --rigid-points a,b,c", 2,
           "--rigid-points = a,b,c: expected none, as the weights of --rig move a face");
+  put(in("recipes.toml"), "[happy]\njawOpn = 1\n");
+  refused("rig embedded --out other.glb --recipes recipes.toml", 2, "did you mean jawOpen?");
+  refused("rig embedded --out other.glb --recipes none.toml", 2, "none.toml");
   put(in("rig.glb"), "no model");
   refused("symmetry weights.csv --rig rig.glb", 2, "rig.glb");
   put(in("points.toml"),

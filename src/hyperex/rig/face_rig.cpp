@@ -41,21 +41,44 @@ bool moves_skin(const std::string& shape) {
          shape != "tongueOut";
 }
 
-/// The poses that are simulated, by name: every shape that moves skin alone, those of mouthClose,
-/// and pairs at the end, so that the former ones stay where they are.
-std::vector<Pose> poses_of(Correctives correctives, std::map<std::string, std::size_t>& place) {
+const Recipe* recipe_for(const std::string& name, const std::vector<Recipe>& recipes) {
+  const auto at = std::ranges::find(recipes, name, &Recipe::name);
+  return at == recipes.end() ? nullptr : &*at;
+}
+
+bool is_of_arkit(const std::string& name) {
+  return std::ranges::find(expression::arkit_shapes(), name) != expression::arkit_shapes().end();
+}
+
+/// The weights of ARKit's shapes at weight 1 of the rig's shape of this name.
+std::vector<std::pair<std::string, double>> weights_of(const std::string& name,
+                                                       const std::vector<Recipe>& recipes) {
+  if (const Recipe* own = recipe_for(name, recipes)) return own->weights;
+  return {{name, 1.0}};
+}
+
+/// The poses that are simulated, by name: every shape that moves skin alone, recipes, those of
+/// mouthClose, and pairs at the end, so that the former ones stay where they are.
+std::vector<Pose> poses_of(Correctives correctives, const std::vector<Recipe>& recipes,
+                           std::map<std::string, std::size_t>& place) {
   std::vector<Pose> poses;
   const auto add = [&](const std::string& name, Pose pose) {
     place[name] = poses.size();
     poses.push_back(std::move(pose));
   };
   for (const std::string& shape : expression::arkit_shapes())
-    if (moves_skin(shape) && shape != "mouthClose") add(shape, {.weights = {{shape, 1.0}}});
+    if (recipe_for(shape, recipes) || (moves_skin(shape) && shape != "mouthClose"))
+      add(shape, {.weights = weights_of(shape, recipes)});
+  for (const Recipe& recipe : recipes)
+    if (!is_of_arkit(recipe.name)) add(recipe.name, {.weights = recipe.weights});
   add("open", {.weights = {{"jawOpen", kClosedAt}}});
   add("closed", {.weights = {{"jawOpen", kClosedAt}, {"mouthClose", kClosedAt}}});
   if (correctives == Correctives::of_clashing_pairs)
-    for (const expression::ShapePair& pair : clashing_pairs())
-      add(expression::corrective_name(pair), {.weights = {{pair.first, 1.0}, {pair.second, 1.0}}});
+    for (const expression::ShapePair& pair : clashing_pairs()) {
+      auto both = weights_of(pair.first, recipes);
+      for (const auto& weight : weights_of(pair.second, recipes)) both.push_back(weight);
+      add(expression::corrective_name(pair), {.weights = std::move(both)});
+    }
   return poses;
 }
 
@@ -70,14 +93,18 @@ std::vector<std::string> shapes_of(const std::map<std::string, std::size_t>& pla
 /// The simulated shapes as those of the rig.
 class Shapes {
  public:
-  Shapes(const simulate::Performance& performance, std::map<std::string, std::size_t> frame)
-      : performance_(performance), frame_(std::move(frame)) {}
+  Shapes(const simulate::Performance& performance, const std::vector<Recipe>& recipes,
+         std::map<std::string, std::size_t> frame)
+      : performance_(performance), recipes_(recipes), frame_(std::move(frame)) {}
 
   RigShape named(const std::string& name) const {
     RigShape shape{.name = name};
     shape.displacement_m = PointsF::Zero(skin("open").rows(), 3);
-    (name.ends_with("Left") ? shape.left_eye : shape.right_eye) = expression::gaze_of_shape(name);
-    if (name == "mouthClose") {
+    for (const auto& [one, weight] : weights_of(name, recipes_)) turn_eye(shape, one, weight);
+    if (recipe_for(name, recipes_)) {
+      shape.displacement_m = skin(name);
+      shape.jaw_now_from_rest = jaw(name);
+    } else if (name == "mouthClose") {
       shape.displacement_m = (skin("closed") - skin("open")) / float(kClosedAt);
     } else if (moves_skin(name)) {
       shape.displacement_m = skin(name);
@@ -105,6 +132,14 @@ class Shapes {
   }
 
  private:
+  static void turn_eye(RigShape& shape, const std::string& arkit, double weight) {
+    const auto gaze = expression::gaze_of_shape(arkit);
+    if (!gaze || weight == 0) return;
+    auto& eye = arkit.ends_with("Left") ? shape.left_eye : shape.right_eye;
+    if (!eye) eye = expression::Gaze{0, 0};
+    eye->up_rad += weight * gaze->up_rad;
+    eye->left_rad += weight * gaze->left_rad;
+  }
   Eigen::Affine3d jaw(const std::string& pose) const {
     const Eigen::Isometry3d& now = performance_.jaw_now_from_rest.at(frame_.at(pose));
     const bool turns =
@@ -118,6 +153,7 @@ class Shapes {
     return rest.rows() > 0 ? PointsF(moved - rest) : moved;
   }
   const simulate::Performance& performance_;
+  const std::vector<Recipe>& recipes_;
   std::map<std::string, std::size_t> frame_;
 };
 
@@ -156,10 +192,11 @@ void refuse_other_keys(const session::Changes& changes) {
 }  // namespace
 
 FaceRig make_rig(session::Face face, const session::Changes& changes,
-                 const std::function<void(const Note&)>& note, Correctives correctives) {
+                 const std::function<void(const Note&)>& note, Correctives correctives,
+                 const std::vector<Recipe>& recipes) {
   refuse_other_keys(changes);
   std::map<std::string, std::size_t> place;
-  std::vector<Pose> poses = poses_of(correctives, place);
+  std::vector<Pose> poses = poses_of(correctives, recipes, place);
   motion::Motion motion = motion_through(poses);
   session::Changes all = {{"drive.points", "all"},
                           {"contact.lips", true},
@@ -183,7 +220,7 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
       {.certainty = session::Certainty::on_request, .note = told, .frame_words = in_shape});
   session.run_base();
   for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
-  const Shapes simulated(session.simulation().performance, std::move(place));
+  const Shapes simulated(session.simulation().performance, recipes, std::move(place));
   FaceRig rig;
   rig.scan = std::make_shared<const io::Scan>(session.inputs().scan);
   rig.teeth = session.teeth();
@@ -191,6 +228,8 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
       simulate::JawHinge(session.inputs().landmarks, session.mesh().bones.get()).centre;
   for (const std::string& name : expression::arkit_shapes())
     rig.shapes.push_back(simulated.named(name));
+  for (const Recipe& recipe : recipes)
+    if (!is_of_arkit(recipe.name)) rig.shapes.push_back(simulated.named(recipe.name));
   if (correctives == Correctives::of_clashing_pairs)
     for (const expression::ShapePair& pair : clashing_pairs())
       rig.shapes.push_back(simulated.corrective(pair, rig.shapes));
