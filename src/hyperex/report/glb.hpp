@@ -39,7 +39,7 @@ struct GlbReport {
 /// performance.jaw_now_from_rest has them, and the upper ones lie where surgery put them
 /// (upper_teeth_now_from_rest). If the landmarks include the corners of the eyes, the report's
 /// eyeballs are nodes eye_R and eye_L, which turn with performance.gaze. The pockets behind mouth,
-/// eyes and nostrils are a second primitive of the skin's mesh, "cavity", unlit, with the same
+/// eyes and nostrils are a second primitive of the skin's mesh, "cavity", with the same
 /// morph targets. Throws InputError where the file's name does not end in .glb or it cannot be
 /// written, std::invalid_argument where the performance and the scan do not belong together.
 GlbReport write_glb(const std::filesystem::path& file, const simulate::Performance& performance,

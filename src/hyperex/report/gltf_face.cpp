@@ -218,14 +218,14 @@ tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
   tinygltf::Primitive cavity;
   cavity.mode = TINYGLTF_MODE_TRIANGLES;
   cavity.attributes["POSITION"] = arrays.vectors(mesh.points.cast<float>(), true);
+  cavity.attributes["NORMAL"] =
+      arrays.vectors(vertex_normals(mesh.points.cast<float>(), mesh.triangles), false);
   cavity.attributes["COLOR_0"] = add_colours(arrays, srgb);
   cavity.indices = arrays.triangles(mesh.triangles);
   cavity.material = static_cast<int>(model.materials.size());
   tinygltf::Material material = plain_material("cavity", {1, 1, 1, 1}, 1);
   material.doubleSided = true;
-  material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
   model.materials.push_back(material);
-  model.extensionsUsed.emplace_back("KHR_materials_unlit");
   return cavity;
 }
 

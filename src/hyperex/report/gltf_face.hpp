@@ -35,7 +35,8 @@ TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
                 const Eigen::Affine3d& jaw = Eigen::Affine3d::Identity());
 
 /// The pockets behind the openings, as a primitive of the skin's mesh, because they move with its
-/// poses. Unlit, as on the page: the light is part of their colours.
+/// poses. The light is part of their colours. They are lit none the less: programs that trace light
+/// let it through what is unlit, onto teeth and tongue.
 tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
                                      const std::vector<Opening>& openings, const TriMesh& mesh);
 
