@@ -66,12 +66,15 @@ class Rig:
             self.points, _, _ = read_ply(f"{folder}/subject_{subject}_rig_neutral.ply")
             self.points *= 1e3
 
-    def read(self, file):
+    def open(self, file):
         with open(file, "rb") as stream:
             data = stream.read()
         length = struct.unpack("<I", data[12:16])[0]
         self.json = json.loads(data[20 : 20 + length])
         self.binary = data[20 + length + 8 :]
+
+    def read(self, file):
+        self.open(file)
         mesh = self.json["meshes"][0]
         self.names = mesh["extras"]["targetNames"]
         self.landmarks = mesh["extras"]["landmarks68"]
