@@ -20,8 +20,9 @@ namespace hyperex::simulate {
 ///   h / a (d_upper - d_lower),
 /// where d are the displacements of a lid's point and of that below it (iBUG 37, 41 and 38, 40; 43,
 /// 47 and 44, 46), and a is their distance at rest; linear between the two pairs, and constant
-/// beyond. The upper lid takes six sevenths of what this changes, the lower one the rest, as they
-/// share a blink. The change is whole within 2 mm of an edge, along the skin, and fades until 7 mm.
+/// beyond. The displacement that is missing for this is the correction. The upper lid moves by six
+/// sevenths of it and the lower lid by one seventh the other way, as in a blink. The correction has
+/// full weight within 2 mm of an edge, along the skin, and falls smoothly to zero at 7 mm.
 /// Displacements are weighted sums of the nodes' displacements, as before.
 ///
 /// `names`, `places`: the driven points and their places on the skin. `landmarks`: the 68 iBUG
