@@ -7,30 +7,35 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "commands.hpp"
 #include "hyperex/anatomy/embedded_face.hpp"
+#include "hyperex/anatomy/landmarks.hpp"
 #include "hyperex/core/error.hpp"
 #include "hyperex/core/files.hpp"
 #include "hyperex/core/memory.hpp"
 #include "hyperex/core/output_file.hpp"
 #include "hyperex/core/printable.hpp"
 #include "hyperex/core/progress.hpp"
+#include "hyperex/expression/arkit_names.hpp"
 #include "hyperex/rig/face_rig.hpp"
 #include "hyperex/rig/fewer_vertices.hpp"
 #include "hyperex/scene/override.hpp"
 #include "hyperex/scene/toml_values.hpp"
 #include "hyperex/session/embedded_scan.hpp"
+#include "hyperex/session/inputs.hpp"
 #include "hyperex/session/log_note.hpp"
 
 namespace hyperex::cli {
 namespace {
 
 struct RigOptions {
-  std::filesystem::path scan, landmarks, recipes, out;
+  std::filesystem::path scan, landmarks, out;
+  std::vector<std::filesystem::path> recipes;
   std::string unit, names = "arkit", skin_tone = "light";
   std::vector<std::string> overrides;
   bool correctives = false;
@@ -76,10 +81,20 @@ InputError naming_the_option(const InputError& error, const session::Changes& ch
   return InputError(problems);
 }
 
-void thin(io::Scan& scan, const RigOptions& options) {
+/// Landmarks are found on the whole scan, and kept.
+void thin(session::Face& face, const RigOptions& options) {
+  io::Scan& scan = face.scan;
   const Eigen::Index before = scan.mesh.points.rows();
+  if (before <= options.vertices) return;
+  if (face.landmarks.empty()) {
+    std::vector<Note> notes;
+    face.landmarks = session::find_landmarks(scan, "no --landmarks", notes);
+    for (const Note& note : notes) session::log_note(note);
+  }
+  const io::Landmarks all =
+      anatomy::complete_landmarks(face.landmarks, scan.mesh, options.landmarks.string()).landmarks;
   try {
-    rig::ThinnedScan thinned = rig::with_fewer_vertices(scan, options.vertices);
+    rig::ThinnedScan thinned = rig::with_fewer_vertices(scan, all, options.vertices);
     if (thinned.scan.mesh.points.rows() < before)
       std::cerr << fmt::format(
           "{} of {} vertices are kept; the others lie up to {:.2f} mm from their surface\n",
@@ -107,15 +122,24 @@ session::Face face_of(const RigOptions& options) {
     std::cerr << fmt::format("{}: unit {}\n", printable(options.scan.string()),
                              io::unit_note(face.scan));
   if (!options.landmarks.empty()) face.landmarks = io::read_landmarks(options.landmarks);
-  if (options.vertices > 0) thin(face.scan, options);
+  if (options.vertices > 0) thin(face, options);
   return face;
 }
 
-rig::FaceRig rig_of(const RigOptions& options) {
+std::vector<rig::Recipe> recipes_of(const RigOptions& options) {
+  std::vector<rig::Recipe> recipes = rig::read_recipes(options.recipes);
+  for (const rig::Recipe& recipe : recipes)
+    if (const std::string meant = rig::probably_meant(recipe); !meant.empty())
+      std::cerr << fmt::format(
+          "warning: the recipe {} is added to ARKit's shapes; did you mean {}, which would replace "
+          "one?\n",
+          recipe.name, meant);
+  return recipes;
+}
+
+rig::FaceRig rig_of(const RigOptions& options, const std::vector<rig::Recipe>& recipes) {
   session::Face face = face_of(options);
   const session::Changes changes = changes_of(options.overrides);
-  std::vector<rig::Recipe> recipes;
-  if (!options.recipes.empty()) recipes = rig::read_recipes(options.recipes);
   try {
     return rig::make_rig(
         std::move(face), changes, session::log_note,
@@ -147,18 +171,41 @@ std::string lips_of(const rig::FaceRig& made, const report::RigShape& corrective
                      1e3 * made.lips->depth(sum + corrective.displacement_m));
 }
 
-void print_shapes(const rig::FaceRig& made, const std::string& file, double bytes) {
+/// By how much a shape turns an eye; empty where it turns none.
+std::string turn_of_eyes(const report::RigShape& shape) {
+  double most_rad = 0;
+  for (const auto& eye : {shape.right_eye, shape.left_eye})
+    if (eye) most_rad = std::max(most_rad, std::hypot(eye->up_rad, eye->left_rad));
+  return most_rad > 0
+             ? fmt::format("; eyes turn by {:.0f} degrees", most_rad * 180 / std::numbers::pi)
+             : "";
+}
+
+/// What else there is to say of a shape, behind its displacement. The shapes have ARKit's names.
+std::string remark_on(const rig::FaceRig& made, std::size_t place,
+                      const std::vector<rig::Recipe>& recipes) {
+  const report::RigShape& shape = made.shapes[place];
+  std::string text = turn_of_eyes(shape);
+  if (shape.corrects) text += lips_of(made, shape);
+  if (std::ranges::find(recipes, shape.name, &rig::Recipe::name) != recipes.end())
+    text += place < expression::arkit_shapes().size() ? "; a recipe in the place of ARKit's shape"
+                                                      : "; a recipe";
+  return text;
+}
+
+void print_shapes(const rig::FaceRig& made, const std::vector<std::string>& remarks,
+                  const std::string& file, double bytes) {
   std::size_t width = 20;
   for (const report::RigShape& shape : made.shapes) width = std::max(width, shape.name.size());
-  for (const report::RigShape& shape : made.shapes)
-    std::cout << fmt::format("{:<{}} {:5.1f} mm{}\n", shape.name, width,
-                             1e3 * shape.displacement_m.rowwise().norm().maxCoeff(),
-                             shape.corrects ? lips_of(made, shape) : "");
+  for (std::size_t i = 0; i < made.shapes.size(); ++i)
+    std::cout << fmt::format("{:<{}} {:5.1f} mm{}\n", made.shapes[i].name, width,
+                             1e3 * made.shapes[i].displacement_m.rowwise().norm().maxCoeff(),
+                             remarks[i]);
   const auto correctives = std::ranges::count_if(
       made.shapes, [](const report::RigShape& shape) { return shape.corrects.has_value(); });
   std::cout << fmt::format(
-      "{} shapes{} of {} vertices (greatest displacement at weight 1); tongueOut moves nothing: "
-      "the tongue stays in the mouth\n"
+      "{} shapes{} of {} vertices of the skin (greatest displacement at weight 1); tongueOut moves "
+      "nothing: the tongue stays in the mouth\n"
       "written to {}: {:.1f} MB\n",
       made.shapes.size() - std::size_t(correctives),
       correctives > 0 ? fmt::format(" and {} correctives", correctives) : "",
@@ -166,14 +213,20 @@ void print_shapes(const rig::FaceRig& made, const std::string& file, double byte
 }
 
 void run(const RigOptions& options) {
-  check_outputs({options.out}, {options.scan, options.landmarks, options.recipes});
+  std::vector<std::filesystem::path> inputs = options.recipes;
+  inputs.insert(inputs.end(), {options.scan, options.landmarks});
+  check_outputs({options.out}, inputs);
   check_output_kinds({{options.out, {".glb"}, "glTF", {"hyperex"}}});
   take_library_memory();
-  rig::FaceRig made = rig_of(options);
+  const std::vector<rig::Recipe> recipes = recipes_of(options);
+  rig::FaceRig made = rig_of(options, recipes);
   for (const std::string& side : made.closed_eyes)
     std::cerr << fmt::format(
         "warning: the scan's {} eye is closed: shapes of its lids and of gaze move nothing\n",
         side == "Left" ? "left" : "right");
+  std::vector<std::string> remarks;
+  for (std::size_t i = 0; i < made.shapes.size(); ++i)
+    remarks.push_back(remark_on(made, i, recipes));
   if (options.names == "unreal") name_as_unreal_does(made.shapes);
   double bytes = 0;
   {
@@ -182,7 +235,7 @@ void run(const RigOptions& options) {
                                   made.jaw_axis_m, made.shapes,
                                   *value_of<face::SkinTone>(options.skin_tone));
   }
-  print_shapes(made, options.out.string(), bytes);
+  print_shapes(made, remarks, options.out.string(), bytes);
 }
 
 }  // namespace
@@ -215,9 +268,11 @@ void add_rig(CLI::App& program) {
       ->add_option("--vertices", options->vertices,
                    "Thin the scan to about that many vertices (default: all up to 60,000)")
       ->check(CLI::Range(3000, 1000000));
-  command->add_option("--recipes", options->recipes,
-                      "TOML file with shapes of your own, as weights of ARKit's: more shapes, or "
-                      "others in the place of ARKit's (docs/rig.md)");
+  command
+      ->add_option("--recipes", options->recipes,
+                   "TOML file with shapes of your own, as weights of ARKit's: more shapes, or "
+                   "others in the place of ARKit's (docs/rig.md); can be repeated")
+      ->allow_extra_args(false);
   command->add_flag("--correctives", options->correctives,
                     "Also write shapes for combinations that are no sum of two, as "
                     "jawOpen_mouthClose; the weight of each is the product of the two weights");

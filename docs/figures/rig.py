@@ -6,14 +6,14 @@
     blender --background --python-exit-code 1 --python docs/figures/rig.py -- out/second_rig.glb docs/images/rig.webp
 
 Needs Debian's blender."""
+import pathlib
 import sys
 
 import numpy
 
-numpy.bool = bool  # Blender 3.4's importer uses a name that newer NumPy has dropped
-
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples/blender"))
+import play_weights  # noqa: E402  mends the importer, too
 import bpy  # noqa: E402
-import mathutils  # noqa: E402
 
 WIDTH, HEIGHT, COLUMNS = 300, 358, 4
 EXPRESSIONS = (
@@ -35,15 +35,6 @@ def show(weights):
                 key.value = weights.get(key.name, 0)
 
 
-def light(name, place, at, watts, metres):
-    lamp = bpy.data.lights.new(name, "AREA")
-    lamp.energy, lamp.size = watts, metres
-    thing = bpy.data.objects.new(name, lamp)
-    thing.location = at + mathutils.Vector(place)
-    thing.rotation_euler = (at - thing.location).to_track_quat("-Z", "Y").to_euler()
-    bpy.context.collection.objects.link(thing)
-
-
 def picture(scene, weights):
     """RGBA rows from the bottom."""
     show(weights)
@@ -58,26 +49,9 @@ def picture(scene, weights):
 def main(rig, out):
     bpy.ops.wm.read_factory_settings(use_empty=True)
     bpy.ops.import_scene.gltf(filepath=rig)
-    eyes = [bpy.data.objects[name].matrix_world.translation for name in ("eye_R", "eye_L")]
-    at = (eyes[0] + eyes[1]) / 2 + mathutils.Vector((0, 0, -0.042))
     scene = bpy.context.scene
-    camera = bpy.data.objects.new("camera", bpy.data.cameras.new("camera"))
-    camera.data.lens = 105
-    camera.location = at + mathutils.Vector((0.16, -0.62, 0.02))  # from the face's left, as far as a portrait is taken
-    camera.rotation_euler = (at - camera.location).to_track_quat("-Z", "Y").to_euler()
-    scene.collection.objects.link(camera)
-    scene.camera = camera
-    light("key", (0.45, -0.65, 0.3), at, 8, 0.35)
-    light("fill", (-0.6, -0.5, 0.05), at, 3, 0.6)
-    light("rim", (-0.3, 0.6, 0.4), at, 5, 0.3)
-    scene.world = bpy.data.worlds.new("world")
-    scene.world.use_nodes = True
-    scene.world.node_tree.nodes["Background"].inputs[0].default_value = (0.62, 0.64, 0.66, 1)
-    scene.world.node_tree.nodes["Background"].inputs[1].default_value = 0.6
-    scene.render.engine = "CYCLES"
+    play_weights.film(scene)
     scene.cycles.samples = 96
-    scene.cycles.use_denoising = False
-    scene.view_settings.view_transform = "Standard"
     scene.render.resolution_x, scene.render.resolution_y = WIDTH, HEIGHT
     rows = len(EXPRESSIONS) // COLUMNS
     sheet = numpy.ones((rows * HEIGHT, COLUMNS * WIDTH, 4), numpy.float32)

@@ -67,7 +67,7 @@ def mesh_of(*names):
 def load(examples):
     """The script as a module, with modules that are empty in place of Blender's."""
     sys.dont_write_bytecode = True  # into the folder of examples
-    for name in ("numpy", "bpy"):
+    for name in ("numpy", "bpy", "mathutils"):
         sys.modules[name] = types.ModuleType(name)
     spec = importlib.util.spec_from_file_location("play_weights", pathlib.Path(examples) / "blender/play_weights.py")
     script = importlib.util.module_from_spec(spec)
@@ -135,6 +135,18 @@ class Correctives(unittest.TestCase):
         self.assertEqual(script.key_shapes(self.face, self.skin, self.TIMES, self.WEIGHTS), 2)
         self.assertEqual(self.values(self.face, "jawOpen"), [0.5, 1])
         self.assertEqual(len(self.face.curves), 2)
+
+
+class Shapes(unittest.TestCase):
+    def test_those_without_a_weight_are_listed(self):
+        skin = mesh_of("jawOpen", "mouthClose", "eyeBlinkLeft", "jawOpen_mouthClose").shape_keys
+        self.assertEqual(script.still_shapes(skin, {"jawopen": [0, 1], "eyeblinkleft": [0, 0]}), ["mouthClose", "eyeBlinkLeft"])
+
+    def test_no_known_output_is_refused_before_the_rig_is_read(self):
+        for rig, out, said in (("nowhere.glb", "face.blend", "no such file"), (__file__, "face.usd", "expected .blend")):
+            with self.assertRaises(SystemExit) as refused:
+                script.main(rig, "weights.csv", out)
+            self.assertIn(said, str(refused.exception))
 
 
 script = load(sys.argv[1])

@@ -3,27 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <stdexcept>
 
+#include "hyperex/geometry/closed_line.hpp"
 #include "hyperex/geometry/surface_topology.hpp"
 
 namespace hyperex::metrics {
-namespace {
-
-double distance_to_closed_line(const Eigen::RowVector3d& point, const Points& line) {
-  double least = std::numeric_limits<double>::infinity();
-  for (Eigen::Index i = 0; i < line.rows(); ++i) {
-    const Eigen::RowVector3d from = line.row(i), along = line.row((i + 1) % line.rows()) - from;
-    const double squared = along.squaredNorm();
-    const double at = squared > 0 ? std::clamp((point - from).dot(along) / squared, 0.0, 1.0) : 0.0;
-    least = std::min(least, (point - from - at * along).norm());
-  }
-  return least;
-}
-
-}  // namespace
-
 VariantDifference variant_difference(const std::vector<PointsF>& a, const std::vector<PointsF>& b,
                                      int peak_frame) {
   if (a.size() != b.size() || a.empty())

@@ -141,6 +141,7 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
                         std::min(0.03, 0.25 * length_m[i])});
     Opening& opening = openings.back();
     opening.mouth = is_mouth(loops[i], skin.points, corners);
+    opening.eye = !opening.mouth && is_eye(loops[i], skin.points, corners);
     // About the depth of a row of teeth.
     if (opening.mouth) opening.depth_m = 0.5 * length_m[i];
     const auto room = [&](double low_m, double high_m) {
@@ -152,8 +153,7 @@ std::vector<Opening> openings_of(const TriMesh& skin, const FaceCorners& corners
     } else {
       const double half_m = 1.35 * half_height(opening, skin.points, corners);
       opening.depth_m = std::min(opening.depth_m, room(-half_m, half_m));
-      hang_pocket(opening, skin.points,
-                  is_eye(loops[i], skin.points, corners) ? kLidColours : kPocketColours);
+      hang_pocket(opening, skin.points, opening.eye ? kLidColours : kPocketColours);
     }
   }
   return openings;

@@ -33,6 +33,7 @@ struct Opening {
   Vec3 inward;            ///< unit length, into the head
   double depth_m = 0;
   bool mouth = false;
+  bool eye = false;
   /// At rest: the edge, the rings behind it, each of the loop's length, and a point.
   Points rest = {};
   std::vector<PocketRing> rings = {};  ///< behind the edge, and the point's last

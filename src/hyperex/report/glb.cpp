@@ -92,21 +92,21 @@ std::vector<Eigen::Affine3d> jaws_of(const simulate::Performance& performance,
 /// may take the bytes that the other parts leave of options.max_bytes.
 void add_performance(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& mesh,
                      const simulate::Performance& performance, const SkinView& view,
-                     const FaceBacking& backing, const Points& cavity, const GlbOptions& options,
-                     const FaceNodes& nodes, GlbReport& report) {
+                     const FaceBacking& backing, const std::vector<PocketGroup>& pockets,
+                     const GlbOptions& options, const FaceNodes& nodes, GlbReport& report) {
   const Points& rest = performance.skin_rest.points;
-  const double copies =
-      double(Index(view.skin_vertex.size()) + cavity.rows()) / double(rest.rows());
+  Index written = Index(view.skin_vertex.size());
+  for (const PocketGroup& group : pockets) written += group.at_rest.points.rows();
+  const double copies = double(written) / double(rest.rows());
   const PoseTargets targets =
       pose_targets(performance.skin_rest, performance.skin_displacement_m, performance.frame_time_s,
                    options.tolerance_m, options.max_bytes - double(arrays.bytes()), copies);
   report.keys = targets.names.size();
   report.max_error_m = targets.keys.max_error_m;
   add_morph_targets(mesh, arrays, targets, view.skin_vertex);
-  if (!backing.openings.empty())
-    add_pocket_targets(
-        mesh.primitives[1], arrays, backing.openings, rest, cavity, targets,
-        options.teeth ? jaws_of(performance, targets.keys.frames) : std::vector<Eigen::Affine3d>{});
+  add_pocket_targets(
+      mesh, arrays, pockets, rest, targets,
+      options.teeth ? jaws_of(performance, targets.keys.frames) : std::vector<Eigen::Affine3d>{});
   tinygltf::Animation animation;
   animation.name = "performance";
   const double start_s = performance.frame_time_s.front();
@@ -141,14 +141,13 @@ tinygltf::Model model_of(const simulate::Performance& performance, const io::Sca
   tinygltf::Mesh mesh;
   mesh.name = "skin";
   mesh.primitives.push_back(skin);
-  const TriMesh cavity = pockets(backing.openings, performance.skin_rest.points);
-  if (!backing.openings.empty())
-    mesh.primitives.push_back(cavity_primitive(model, arrays, backing.openings, cavity));
+  const auto pockets = pocket_groups(backing.openings, performance.skin_rest.points);
+  add_pockets(model, arrays, mesh, pockets);
   const bool moves =
       std::any_of(performance.skin_displacement_m.begin(), performance.skin_displacement_m.end(),
                   [](const PointsF& frame) { return !frame.isZero(0); });
   if (moves)
-    add_performance(model, arrays, mesh, performance, view, backing, cavity.points, options, nodes,
+    add_performance(model, arrays, mesh, performance, view, backing, pockets, options, nodes,
                     report);
   model.meshes[0] = std::move(mesh);
   end_face(model);

@@ -30,22 +30,30 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
                                    const simulate::Performance& performance, const io::Scan& scan,
                                    face::SkinTone tone);
 
-/// The pockets of all openings for a skin at `points` and a jaw, one after the other.
-TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
-                const Eigen::Affine3d& jaw = Eigen::Affine3d::Identity());
+/// Pockets behind openings that share a material.
+struct PocketGroup {
+  std::vector<Opening> openings;
+  TriMesh at_rest;  ///< all pockets, one after the other
+  bool lit = true;
+};
 
-/// The pockets behind the openings, as a primitive of the skin's mesh, because they move with its
-/// poses. The light is part of their colours. They are lit none the less: programs that trace light
-/// let it through what is unlit, onto teeth and tongue.
-tinygltf::Primitive cavity_primitive(tinygltf::Model& model, GltfArrays& arrays,
-                                     const std::vector<Opening>& openings, const TriMesh& mesh);
+/// The pockets of the mouth, the nostrils and other holes, and those of the eyes; a group without
+/// openings is left out. The light is part of their colours. The former are lit none the less:
+/// programs that trace light let it through what is unlit, onto teeth and tongue. The latter are
+/// unlit: lit, the corner beside an eyeball, where little light comes, would be black.
+std::vector<PocketGroup> pocket_groups(const std::vector<Opening>& openings,
+                                       const Points& skin_rest);
 
-/// Morph targets of the pockets for those of the skin: `pocket_part` is the cavity_primitive() of
-/// `openings`, and `at_rest` its points. `jaws`: the jaw in each target; empty: it does not move.
-void add_pocket_targets(tinygltf::Primitive& pocket_part, GltfArrays& arrays,
-                        const std::vector<Opening>& openings, const Points& skin_rest,
-                        const Points& at_rest, const PoseTargets& targets,
-                        const std::vector<Eigen::Affine3d>& jaws);
+/// Appends the pockets as primitives of the skin's mesh, one for each group, because they move with
+/// its poses.
+void add_pockets(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& skin,
+                 const std::vector<PocketGroup>& groups);
+
+/// Morph targets of the pockets for those of the skin. `skin`: after add_pockets(). `jaws`: the jaw
+/// in each target; empty: it does not move.
+void add_pocket_targets(tinygltf::Mesh& skin, GltfArrays& arrays,
+                        const std::vector<PocketGroup>& groups, const Points& skin_rest,
+                        const PoseTargets& targets, const std::vector<Eigen::Affine3d>& jaws);
 
 /// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes
 /// (light_on_eyes()), and that shade turns with them.

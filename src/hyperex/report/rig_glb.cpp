@@ -137,18 +137,15 @@ double write_rig_glb(const std::filesystem::path& file, const simulate::Performa
   skin.name = "skin";
   skin.primitives.push_back(skin_primitive(model, arrays, view, performance, scan, tone));
   const FaceBacking backing = face_backing(performance, teeth);
-  const TriMesh cavity = pockets(backing.openings, rest.points);
-  if (!backing.openings.empty())
-    skin.primitives.push_back(cavity_primitive(model, arrays, backing.openings, cavity));
+  const auto pockets = pocket_groups(backing.openings, rest.points);
+  add_pockets(model, arrays, skin, pockets);
   const PoseTargets targets = targets_of(rest, shapes);
   add_morph_targets(skin, arrays, targets, view.skin_vertex);
   list_landmarks(skin, landmarks_at_rest(performance));
   std::vector<Eigen::Affine3d> jaws;
   if (teeth)
     for (const RigShape& shape : shapes) jaws.push_back(shape.jaw_now_from_rest);
-  if (!backing.openings.empty())
-    add_pocket_targets(skin.primitives[1], arrays, backing.openings, rest.points, cavity.points,
-                       targets, jaws);
+  add_pocket_targets(skin, arrays, pockets, rest.points, targets, jaws);
   FaceNodes nodes;
   add_eyes(model, arrays, backing.eyeballs, performance.skin_rest, nodes);
   if (teeth) {

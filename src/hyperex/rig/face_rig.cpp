@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <map>
+#include <set>
 #include <utility>
 
 #include "hyperex/core/error.hpp"
@@ -189,12 +190,10 @@ void refuse_other_keys(const session::Changes& changes) {
                         "a key of tissue, muscles, contact, support, mesh or teeth"});
 }
 
-}  // namespace
-
-FaceRig make_rig(session::Face face, const session::Changes& changes,
-                 const std::function<void(const Note&)>& note, Correctives correctives,
-                 const std::vector<Recipe>& recipes) {
-  refuse_other_keys(changes);
+/// make_rig(), with recipes that may move the lids of a closed eye.
+FaceRig rig_of(session::Face face, const session::Changes& changes,
+               const std::function<void(const Note&)>& report, Correctives correctives,
+               const std::vector<Recipe>& recipes) {
   std::map<std::string, std::size_t> place;
   std::vector<Pose> poses = poses_of(correctives, recipes, place);
   motion::Motion motion = motion_through(poses);
@@ -208,16 +207,13 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
   given.landmarks = std::move(face.landmarks);
   given.motion = std::make_shared<const motion::Motion>(std::move(motion));
   given.of_weights = true;
-  const auto told = [&](const Note& one) {
-    if (note && concerns_the_scan(one)) note(one);
-  };
   const std::vector<std::string> shapes = shapes_of(place);
   const auto in_shape = [&](int frame) {
     return "in the shape " + shapes.at(std::size_t(frame / kFrameRate_hz));
   };
   session::FaceSession session(
       session::SceneSource(std::move(given), all).scene(),
-      {.certainty = session::Certainty::on_request, .note = told, .frame_words = in_shape});
+      {.certainty = session::Certainty::on_request, .note = report, .frame_words = in_shape});
   session.run_base();
   for (auto& [name, at] : place) at = std::size_t(std::lround(poses[at].time_s * kFrameRate_hz));
   const Shapes simulated(session.simulation().performance, recipes, std::move(place));
@@ -241,8 +237,24 @@ FaceRig make_rig(session::Face face, const session::Changes& changes,
                                                [](const auto& gain) { return gain.gain == 1; });
   for (const Note& one : lid_doubts(rig.performance.skin_rest.points, session.inputs().landmarks,
                                     rig.shapes, sides_alike))
-    told(one);
+    report(one);
   return rig;
+}
+
+}  // namespace
+
+FaceRig make_rig(session::Face face, const session::Changes& changes,
+                 const std::function<void(const Note&)>& note, Correctives correctives,
+                 const std::vector<Recipe>& recipes) {
+  refuse_other_keys(changes);
+  std::set<std::string> reported;
+  const auto report_once = [&](const Note& one) {
+    if (note && concerns_the_scan(one) && reported.insert(one.text).second) note(one);
+  };
+  FaceRig rig = rig_of(face, changes, report_once, correctives, recipes);
+  // Which eyes are closed is known after the scan was prepared.
+  const std::vector<Recipe> still = without_eyes(recipes, rig.closed_eyes);
+  return still == recipes ? rig : rig_of(face, changes, report_once, correctives, still);
 }
 
 }  // namespace hyperex::rig

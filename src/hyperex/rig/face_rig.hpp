@@ -48,7 +48,8 @@ struct FaceRig {
 /// contact answer to that, and the displacements by the two shapes are subtracted. They are
 /// simulated after the shapes, in the same run, which lasts longer by one pose each.
 /// Recipes: the landmarks move by the weighted sum of the shapes of ARKit that a recipe names, and
-/// the eyes turn by theirs. One with a name of ARKit's stands in its place.
+/// the eyes turn by theirs. One with a name of ARKit's stands in its place. The weights of lids and
+/// gaze of an eye that is closed in the scan are left out.
 /// `changes`: keys of the sections tissue, muscles, contact, support, mesh and teeth of a scene
 /// (docs/scene.md). `note`: called with each note and warning on the scan and its shapes, not
 /// with those on the recording that is made for them. Throws InputError, NumericalError.

@@ -2,6 +2,9 @@
 #include "hyperex/rig/recipes.hpp"
 
 #include <algorithm>
+#include <cctype>
+#include <cstddef>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 #include "hyperex/core/error.hpp"
@@ -77,9 +80,7 @@ void read_weight(const std::string& name, const std::string& shape, const nlohma
   }
 }
 
-}  // namespace
-
-std::vector<Recipe> read_recipes(const fs::path& file) {
+std::vector<Recipe> read_file_of_recipes(const fs::path& file) {
   const scene::TomlValues values = values_of(file);
   Complaints complaints(file, values.lines);
   std::vector<Recipe> recipes;
@@ -87,7 +88,9 @@ std::vector<Recipe> read_recipes(const fs::path& file) {
     Recipe recipe{name, {}};
     if (!is_name(name) || expression::corrected_pair(name))
       complaints.add(name, "", "a name of letters, digits and underscores, and not of two shapes");
-    else if (!shapes.is_object() || shapes.empty())
+    else if (shapes.is_object() && shapes.empty())
+      complaints.add(name, "", "at least one weight below [" + name + "], as jawOpen = 0.5");
+    else if (!shapes.is_object())
       complaints.add(name, "", "a table of weights: [" + name + "], then jawOpen = 0.5 or others");
     else
       for (const auto& [shape, weight] : shapes.items())
@@ -103,6 +106,39 @@ std::vector<Recipe> read_recipes(const fs::path& file) {
     return line == values.lines.end() ? 0 : line->second;
   });
   return recipes;
+}
+
+}  // namespace
+
+std::vector<Recipe> read_recipes(const std::vector<fs::path>& files) {
+  std::vector<Recipe> all;
+  for (const fs::path& file : files)
+    for (Recipe& recipe : read_file_of_recipes(file)) {
+      if (std::ranges::find(all, recipe.name, &Recipe::name) != all.end())
+        throw InputError({file, 0, recipe.name, "", "a name that no file before has"});
+      all.push_back(std::move(recipe));
+    }
+  return all;
+}
+
+std::vector<Recipe> without_eyes(std::vector<Recipe> recipes,
+                                 const std::vector<std::string>& sides) {
+  for (Recipe& recipe : recipes)
+    std::erase_if(recipe.weights, [&](const auto& weight) {
+      return weight.first.starts_with("eye") &&
+             std::ranges::any_of(
+                 sides, [&](const std::string& side) { return weight.first.ends_with(side); });
+    });
+  return recipes;
+}
+
+std::string probably_meant(const Recipe& recipe) {
+  const std::vector<std::string>& known = expression::arkit_shapes();
+  if (std::ranges::find(known, recipe.name) != known.end()) return "";
+  const std::string near = scene::nearest(recipe.name, known);
+  // A typing error hardly changes a name's length; blinkLeft is meant as it is.
+  const auto longer = std::ptrdiff_t(near.size()) - std::ptrdiff_t(recipe.name.size());
+  return std::abs(longer) <= 1 ? near : "";
 }
 
 }  // namespace hyperex::rig

@@ -2,8 +2,8 @@
 #include "hyperex/session/thinned_scan.hpp"
 
 #include <limits>
+#include <numeric>
 
-#include "hyperex/geometry/clean_mesh.hpp"
 #include "hyperex/report/skin_view.hpp"
 #include "hyperex/simulate/performance.hpp"
 
@@ -70,6 +70,24 @@ std::vector<char> on_seams(const io::Scan& scan) {
     }
   for (std::size_t v = 0; v < place.size(); ++v) seam[v] = seam[std::size_t(place[v])];
   return seam;
+}
+
+tissue::FullSkin skin_before_thinning(const io::Scan& scan, const CleanMesh& clean,
+                                      const ThinMesh& thin) {
+  tissue::FullSkin full;
+  full.skin = scan.mesh;
+  // Files repeat vertices, on seams or everywhere. Triangles have to name those that are kept.
+  for (Index f = 0; f < clean.mesh.triangles.rows(); ++f)
+    for (int k = 0; k < 3; ++k)
+      full.skin.triangles(clean.source_triangle[std::size_t(f)], k) =
+          clean.source_vertex[std::size_t(clean.mesh.triangles(f, k))];
+  full.scan_vertices = scan.mesh.points.rows();
+  full.source_triangle.resize(std::size_t(scan.mesh.triangles.rows()));
+  std::iota(full.source_triangle.begin(), full.source_triangle.end(), 0);
+  for (const int v : thin.source_vertex) full.kept.push_back(clean.source_vertex[std::size_t(v)]);
+  for (const int f : thin.source_triangle)
+    full.kept_triangle.push_back(clean.source_triangle[std::size_t(f)]);
+  return full;
 }
 
 io::Scan thinned_scan(const io::Scan& scan, const tissue::FullSkin& full, const TriMesh& thinned) {

@@ -311,6 +311,31 @@ TEST(Glb, EyesAreThoseOfTheReport) {
     EXPECT_TRUE(channel.target_node == 0 || channel.target_node == 4) << channel.target_node;
 }
 
+/// Lit, a corner beside an eyeball would be black; what lies behind a mouth must not let light in.
+TEST(Glb, PocketsOfEyesAreUnlitAndStandApart) {
+  const auto face = made_up_face(Surface::plain);
+  FaceBacking backing = face_backing(face.performance);
+  ASSERT_EQ(backing.openings.size(), 1u);
+  backing.openings.push_back(backing.openings[0]);
+  backing.openings[1].mouth = false;
+  backing.openings[1].eye = true;
+  const auto file = scratch("lid_pocket.glb");
+  write_glb(file, face.performance, face.scan, {.backing = &backing});
+  const auto model = read_back(file);
+  ASSERT_EQ(model.meshes[0].primitives.size(), 3u);
+  const auto material = [&](std::size_t part) {
+    return model.materials[std::size_t(model.meshes[0].primitives[part].material)];
+  };
+  EXPECT_EQ(material(1).name, "cavity");
+  EXPECT_TRUE(material(1).extensions.empty());
+  EXPECT_EQ(material(2).name, "lid_pocket");
+  EXPECT_TRUE(material(2).extensions.contains("KHR_materials_unlit"));
+  for (std::size_t part : {1u, 2u})
+    EXPECT_EQ(model.meshes[0].primitives[part].targets.size(),
+              model.meshes[0].primitives[0].targets.size());
+  EXPECT_NEAR((played(model, "POSITION", 1, 1) - played(model, "POSITION", 1, 2)).norm(), 0, 1e-6);
+}
+
 TEST(Glb, PocketsBehindOpeningsHangOnTheMovingSkin) {
   const auto face = made_up_face(Surface::plain);
   const auto teeth = testing::made_up_teeth();

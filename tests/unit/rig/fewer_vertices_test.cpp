@@ -3,8 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <ranges>
 
+#include "hyperex/face/ibug.hpp"
 #include "support/sheet_mesh.hpp"
 
 namespace hyperex::rig {
@@ -41,7 +45,7 @@ io::Scan curved_sheet(bool textured) {
 
 TEST(FewerVertices, AreAsManyAsWantedAndNearTheScan) {
   const io::Scan scan = curved_sheet(false);
-  const ThinnedScan thinned = with_fewer_vertices(scan, 2500);
+  const ThinnedScan thinned = with_fewer_vertices(scan, {}, 2500);
   EXPECT_LE(thinned.scan.mesh.points.rows(), 2500);
   EXPECT_GT(thinned.scan.mesh.points.rows(), 1500);
   EXPECT_GT(thinned.off_m, 0);
@@ -50,26 +54,63 @@ TEST(FewerVertices, AreAsManyAsWantedAndNearTheScan) {
     EXPECT_EQ(thinned.scan.vertex_colour(v, 0), std::lround(2000 * thinned.scan.mesh.points(v, 0)));
 }
 
-TEST(FewerVertices, KeepTheTextureOnBothSidesOfASeam) {
-  const ThinnedScan thinned = with_fewer_vertices(curved_sheet(true), 3000);
-  const TriMesh& mesh = thinned.scan.mesh;
+void expect_texture_of_curved_sheet(const io::Scan& scan) {
+  const TriMesh& mesh = scan.mesh;
   EXPECT_LT(mesh.points.rows(), 4000);
-  ASSERT_EQ(thinned.scan.corner_uv.rows(), 3 * mesh.triangles.rows());
+  ASSERT_EQ(scan.corner_uv.rows(), 3 * mesh.triangles.rows());
   for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
     double middle = 0;
     for (int k = 0; k < 3; ++k) middle += mesh.points(mesh.triangles(f, k), 0) / 3;
     for (int k = 0; k < 3; ++k) {
       const auto at = mesh.points.row(mesh.triangles(f, k));
-      EXPECT_NEAR(thinned.scan.corner_uv(3 * f + k, 0), 4 * at[0] + (middle > 0.05 ? 0.5 : 0),
-                  1e-5);
-      EXPECT_NEAR(thinned.scan.corner_uv(3 * f + k, 1), 10 * at[1], 1e-5);
+      EXPECT_NEAR(scan.corner_uv(3 * f + k, 0), 4 * at[0] + (middle > 0.05 ? 0.5 : 0), 1e-5);
+      EXPECT_NEAR(scan.corner_uv(3 * f + k, 1), 10 * at[1], 1e-5);
     }
   }
 }
 
+TEST(FewerVertices, KeepTheTextureOnBothSidesOfASeam) {
+  expect_texture_of_curved_sheet(with_fewer_vertices(curved_sheet(true), {}, 3000).scan);
+}
+
+/// A file that repeats each vertex for each of its triangles.
+io::Scan unwelded(const io::Scan& scan) {
+  io::Scan out = scan;
+  const Eigen::Index triangles = scan.mesh.triangles.rows();
+  out.mesh.points.resize(3 * triangles, 3);
+  for (Eigen::Index f = 0; f < triangles; ++f)
+    for (int k = 0; k < 3; ++k) {
+      out.mesh.points.row(3 * f + k) = scan.mesh.points.row(scan.mesh.triangles(f, k));
+      out.mesh.triangles(f, k) = int(3 * f + k);
+    }
+  return out;
+}
+
+TEST(FewerVertices, KeepTheTextureOfAFileThatRepeatsVertices) {
+  expect_texture_of_curved_sheet(with_fewer_vertices(unwelded(curved_sheet(true)), {}, 3000).scan);
+}
+
+TEST(FewerVertices, StayBesideLidsAndLips) {
+  const io::Scan scan = curved_sheet(false);
+  io::Landmarks eye;
+  for (int k = 36; k <= 41; ++k) {
+    const double turn = 2 * std::numbers::pi * (k - 36) / 6;
+    eye[face::ibug(k)] = {0.05 + 0.01 * std::cos(turn), 0.05 + 0.005 * std::sin(turn), 0.004};
+  }
+  const auto beside = [](const TriMesh& mesh) {
+    return std::ranges::count_if(std::views::iota(Eigen::Index(0), mesh.points.rows()),
+                                 [&](Eigen::Index v) {
+                                   return std::abs(mesh.points(v, 0) - 0.05) < 0.01 &&
+                                          std::abs(mesh.points(v, 1) - 0.05) < 0.005;
+                                 });
+  };
+  EXPECT_EQ(beside(with_fewer_vertices(scan, eye, 2500).scan.mesh), beside(scan.mesh));
+  EXPECT_LT(beside(with_fewer_vertices(scan, {}, 2500).scan.mesh), beside(scan.mesh) / 2);
+}
+
 TEST(FewerVertices, AreNoneWhereTheScanHasNoMore) {
   const io::Scan scan = curved_sheet(false);
-  const ThinnedScan same = with_fewer_vertices(scan, 20000);
+  const ThinnedScan same = with_fewer_vertices(scan, {}, 20000);
   EXPECT_EQ(same.scan.mesh.points, scan.mesh.points);
   EXPECT_EQ(same.off_m, 0);
 }

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "hyperex/geometry/clean_mesh.hpp"
@@ -59,26 +58,14 @@ TEST(ThinnedScan, WithoutASeamRepeatedVerticesAreNone) {
   EXPECT_TRUE(on_seams(plain).empty());
 }
 
-/// The thinned skin of a scan, as the builder of the tissue makes it.
+/// The thinned skin of a scan, and the skin before.
 std::pair<TriMesh, tissue::FullSkin> thinned_skin(const io::Scan& scan) {
   const CleanMesh clean = clean_mesh(scan.mesh);
   const std::vector<char> seam = on_seams(scan);
   std::vector<char> held;
   for (const int v : clean.source_vertex) held.push_back(seam[std::size_t(v)]);
   const ThinMesh thin = thin_mesh(clean.mesh, {.edge_m = 3e-3}, held);
-  tissue::FullSkin full;
-  full.skin = scan.mesh;
-  for (Eigen::Index f = 0; f < clean.mesh.triangles.rows(); ++f)
-    for (int k = 0; k < 3; ++k)
-      full.skin.triangles(clean.source_triangle[std::size_t(f)], k) =
-          clean.source_vertex[std::size_t(clean.mesh.triangles(f, k))];
-  full.scan_vertices = scan.mesh.points.rows();
-  full.source_triangle.resize(std::size_t(scan.mesh.triangles.rows()));
-  std::iota(full.source_triangle.begin(), full.source_triangle.end(), 0);
-  for (const int v : thin.source_vertex) full.kept.push_back(clean.source_vertex[std::size_t(v)]);
-  for (const int f : thin.source_triangle)
-    full.kept_triangle.push_back(clean.source_triangle[std::size_t(f)]);
-  return {thin.mesh, full};
+  return {thin.mesh, skin_before_thinning(scan, clean, thin)};
 }
 
 TEST(ThinnedScan, OfRepeatedVerticesKeepsEachTriangleInItsPartOfTheTexture) {
