@@ -104,7 +104,8 @@ TEST_F(RigRoundTrip, RecipesAndFewerVerticesAreWritten) {
   ASSERT_EQ(made.status, 0) << made.err;
   EXPECT_THAT(made.out, HasSubstr("69 shapes of "));
   EXPECT_THAT(made.out, testing::ContainsRegex("happy +[1-9][0-9.]+ mm"));
-  EXPECT_THAT(made.out, testing::ContainsRegex("lookLeft +0.0 mm; eyes turn by 35 degrees; a recipe"));
+  EXPECT_THAT(made.out,
+              testing::ContainsRegex("lookLeft +0.0 mm; eyes turn by 35 degrees; a recipe"));
   EXPECT_THAT(read_file(in("rig.glb")), HasSubstr("\"surprised\""));
   const Outcome few = call("rig embedded --out few.glb --vertices 100");
   EXPECT_NE(few.status, 0);

@@ -15,6 +15,7 @@
 #include "hyperex/core/lower_case.hpp"
 #include "hyperex/report/eye_model.hpp"
 #include "hyperex/report/gltf_face.hpp"
+#include "hyperex/report/gltf_pockets.hpp"
 #include "hyperex/report/jaw_turns.hpp"
 #include "hyperex/report/skin_view.hpp"
 

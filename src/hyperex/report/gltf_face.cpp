@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "hyperex/report/gltf_face.hpp"
 
-#include <algorithm>
 #include <cmath>
-#include <iterator>
 
 #include "hyperex/report/complexion.hpp"
 #include "hyperex/report/eye_model.hpp"
@@ -20,24 +18,6 @@ double linear(std::uint8_t byte) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
 
-/// glTF's COLOR_0 is linear; 16 bits keep the dark tones apart. -1 where there are none.
-template <class Rows>
-int add_colours(GltfArrays& arrays, const Rows& srgb) {
-  if (srgb.rows() == 0) return -1;
-  const auto sixteen = [](std::uint8_t byte) {
-    return static_cast<std::uint16_t>(std::lround(65535 * linear(byte)));
-  };
-  std::vector<std::uint16_t> values;
-  values.reserve(srgb.size());
-  for (Index v = 0; v < srgb.rows(); ++v) {
-    for (int k = 0; k < 3; ++k) values.push_back(sixteen(srgb(v, k)));
-    values.push_back(65535);  // a face is opaque, whatever a scanner left in alpha
-  }
-  const int view = arrays.view(values.data(), values.size() * 2, TINYGLTF_TARGET_ARRAY_BUFFER);
-  return arrays.accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
-                         srgb.rows(), true);
-}
-
 int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& picture) {
   tinygltf::Image image;
   image.mimeType = picture.mime_type;
@@ -52,15 +32,6 @@ int add_texture(tinygltf::Model& model, GltfArrays& arrays, const io::Image& pic
   texture.sampler = 0;
   model.textures.push_back(texture);
   return 0;
-}
-
-tinygltf::Material plain_material(const char* name, std::vector<double> colour, double roughness) {
-  tinygltf::Material material;
-  material.name = name;
-  material.pbrMetallicRoughness.metallicFactor = 0;
-  material.pbrMetallicRoughness.roughnessFactor = roughness;
-  material.pbrMetallicRoughness.baseColorFactor = std::move(colour);
-  return material;
 }
 
 /// How much light falls on each vertex, as COLOR_0 in all three channels.
@@ -103,56 +74,39 @@ int add_jaw(tinygltf::Model& model, GltfArrays& arrays, const std::vector<const 
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-/// The pockets of all openings for a skin at `points` and a jaw, one after the other.
-TriMesh pockets(const std::vector<Opening>& openings, const Points& points,
-                const Eigen::Affine3d& jaw = Eigen::Affine3d::Identity()) {
-  TriMesh all;
-  for (const Opening& opening : openings) {
-    const TriMesh one = pocket(opening, points, jaw);
-    const Index vertices = all.points.rows(), triangles = all.triangles.rows();
-    all.points.conservativeResize(vertices + one.points.rows(), 3);
-    all.points.bottomRows(one.points.rows()) = one.points;
-    all.triangles.conservativeResize(triangles + one.triangles.rows(), 3);
-    all.triangles.bottomRows(one.triangles.rows()) = one.triangles.array() + int(vertices);
-  }
-  return all;
-}
-
 std::vector<double> base_colour(const Srgb& colour) {
   return {linear(colour[0]), linear(colour[1]), linear(colour[2]), 1};
 }
 
-tinygltf::Primitive pocket_primitive(tinygltf::Model& model, GltfArrays& arrays,
-                                     const PocketGroup& group) {
-  Eigen::Matrix<std::uint8_t, Eigen::Dynamic, 3, Eigen::RowMajor> srgb(group.at_rest.points.rows(),
-                                                                       3);
-  Index row = 0;
-  for (const Opening& opening : group.openings)
-    for (const Srgb& colour : opening.colours) {
-      for (int k = 0; k < 3; ++k) srgb(row, k) = colour[std::size_t(k)];
-      ++row;
-    }
-  const PointsF points = group.at_rest.points.cast<float>();
-  tinygltf::Primitive cavity;
-  cavity.mode = TINYGLTF_MODE_TRIANGLES;
-  cavity.attributes["POSITION"] = arrays.vectors(points, true);
-  cavity.attributes["NORMAL"] =
-      arrays.vectors(vertex_normals(points, group.at_rest.triangles), false);
-  cavity.attributes["COLOR_0"] = add_colours(arrays, srgb);
-  cavity.indices = arrays.triangles(group.at_rest.triangles);
-  cavity.material = static_cast<int>(model.materials.size());
-  tinygltf::Material material =
-      plain_material(group.lit ? "cavity" : "lid_pocket", {1, 1, 1, 1}, 1);
-  material.doubleSided = true;
-  if (!group.lit) {
-    material.extensions["KHR_materials_unlit"] = tinygltf::Value(tinygltf::Value::Object{});
-    model.extensionsUsed.emplace_back("KHR_materials_unlit");
+}  // namespace
+
+// glTF's COLOR_0 is linear; 16 bits keep the dark tones apart.
+int add_colours(
+    GltfArrays& arrays,
+    const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& srgb) {
+  if (srgb.rows() == 0) return -1;
+  const auto sixteen = [](std::uint8_t byte) {
+    return static_cast<std::uint16_t>(std::lround(65535 * linear(byte)));
+  };
+  std::vector<std::uint16_t> values;
+  values.reserve(srgb.size());
+  for (Index v = 0; v < srgb.rows(); ++v) {
+    for (int k = 0; k < 3; ++k) values.push_back(sixteen(srgb(v, k)));
+    values.push_back(65535);  // a face is opaque, whatever a scanner left in alpha
   }
-  model.materials.push_back(material);
-  return cavity;
+  const int view = arrays.view(values.data(), values.size() * 2, TINYGLTF_TARGET_ARRAY_BUFFER);
+  return arrays.accessor(view, TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT, TINYGLTF_TYPE_VEC4,
+                         srgb.rows(), true);
 }
 
-}  // namespace
+tinygltf::Material plain_material(const char* name, std::vector<double> colour, double roughness) {
+  tinygltf::Material material;
+  material.name = name;
+  material.pbrMetallicRoughness.metallicFactor = 0;
+  material.pbrMetallicRoughness.roughnessFactor = roughness;
+  material.pbrMetallicRoughness.baseColorFactor = std::move(colour);
+  return material;
+}
 
 void begin_face(tinygltf::Model& model) {
   model.asset.version = "2.0";
@@ -237,41 +191,6 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
   skin.material = 0;
   model.materials.push_back(skin_material(texture >= 0 || colours >= 0, texture));
   return skin;
-}
-
-std::vector<PocketGroup> pocket_groups(const std::vector<Opening>& openings,
-                                       const Points& skin_rest) {
-  std::vector<PocketGroup> groups;
-  for (const bool eyes : {false, true}) {
-    PocketGroup group;
-    group.lit = !eyes;
-    std::ranges::copy_if(openings, std::back_inserter(group.openings),
-                         [&](const Opening& opening) { return opening.eye == eyes; });
-    if (group.openings.empty()) continue;
-    group.at_rest = pockets(group.openings, skin_rest);
-    groups.push_back(std::move(group));
-  }
-  return groups;
-}
-
-void add_pockets(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& skin,
-                 const std::vector<PocketGroup>& groups) {
-  for (const PocketGroup& group : groups)
-    skin.primitives.push_back(pocket_primitive(model, arrays, group));
-}
-
-void add_pocket_targets(tinygltf::Mesh& skin, GltfArrays& arrays,
-                        const std::vector<PocketGroup>& groups, const Points& skin_rest,
-                        const PoseTargets& targets, const std::vector<Eigen::Affine3d>& jaws) {
-  for (std::size_t k = 0; k < targets.positions.size(); ++k) {
-    const Points now = skin_rest + targets.positions[k].cast<double>();
-    const Eigen::Affine3d jaw = jaws.empty() ? Eigen::Affine3d::Identity() : jaws.at(k);
-    for (std::size_t g = 0; g < groups.size(); ++g) {
-      const Points moved = pockets(groups[g].openings, now, jaw).points - groups[g].at_rest.points;
-      skin.primitives.at(1 + g).targets.push_back(
-          {{"POSITION", arrays.few_vectors(moved.cast<float>(), targets.least_move_m, true)}});
-    }
-  }
 }
 
 void end_face(tinygltf::Model& model) {

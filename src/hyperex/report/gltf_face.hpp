@@ -30,30 +30,14 @@ tinygltf::Primitive skin_primitive(tinygltf::Model& model, GltfArrays& arrays, c
                                    const simulate::Performance& performance, const io::Scan& scan,
                                    face::SkinTone tone);
 
-/// Pockets behind openings that share a material.
-struct PocketGroup {
-  std::vector<Opening> openings;
-  TriMesh at_rest;  ///< all pockets, one after the other
-  bool lit = true;
-};
+/// Colours of vertices as glTF's COLOR_0, from sRGB with 3 or 4 channels, the fourth of which is
+/// not used; -1 where there are none.
+int add_colours(
+    GltfArrays& arrays,
+    const Eigen::Matrix<std::uint8_t, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>& srgb);
 
-/// The pockets of the mouth, the nostrils and other holes, and those of the eyes; a group without
-/// openings is left out. The light is part of their colours. The former are lit none the less:
-/// programs that trace light let it through what is unlit, onto teeth and tongue. The latter are
-/// unlit: lit, the corner beside an eyeball, where little light comes, would be black.
-std::vector<PocketGroup> pocket_groups(const std::vector<Opening>& openings,
-                                       const Points& skin_rest);
-
-/// Appends the pockets as primitives of the skin's mesh, one for each group, because they move with
-/// its poses.
-void add_pockets(tinygltf::Model& model, GltfArrays& arrays, tinygltf::Mesh& skin,
-                 const std::vector<PocketGroup>& groups);
-
-/// Morph targets of the pockets for those of the skin. `skin`: after add_pockets(). `jaws`: the jaw
-/// in each target; empty: it does not move.
-void add_pocket_targets(tinygltf::Mesh& skin, GltfArrays& arrays,
-                        const std::vector<PocketGroup>& groups, const Points& skin_rest,
-                        const PoseTargets& targets, const std::vector<Eigen::Affine3d>& jaws);
+/// A material that is no metal. `colour`: linear, RGBA.
+tinygltf::Material plain_material(const char* name, std::vector<double> colour, double roughness);
 
 /// Nodes eye_R and eye_L, which turn about their centres. `skin`: at rest; its lids shade the eyes
 /// (light_on_eyes()), and that shade turns with them.

@@ -10,6 +10,7 @@
 
 #include "hyperex/core/files.hpp"
 #include "hyperex/report/gltf_face.hpp"
+#include "hyperex/report/gltf_pockets.hpp"
 
 namespace hyperex::report {
 namespace {

@@ -20,8 +20,8 @@ struct Recipe {
 ///   mouthSmileRight = 0.8
 /// A name is of letters, digits and underscores. One of ARKit's names replaces that shape. Weights
 /// are those of ARKit's shapes but tongueOut, which moves nothing. Throws InputError where a file
-/// cannot be read, has no shape, names a corrective (expression/correctives.hpp), where a shape or a
-/// weight is not known, or where two files have a shape of the same name.
+/// cannot be read, has no shape, names a corrective (expression/correctives.hpp), where a shape or
+/// a weight is not known, or where two files have a shape of the same name.
 std::vector<Recipe> read_recipes(const std::vector<std::filesystem::path>& files);
 
 /// The recipes without the weights of shapes that end in one of `sides` ("Right", "Left") and begin

@@ -14,8 +14,8 @@ namespace hyperex::session {
 /// same place count as one. Empty without a texture.
 std::vector<char> on_seams(const io::Scan& scan);
 
-/// The skin of a scan that was thinned without cuts, as thinned_scan() takes it: `clean` was made of
-/// the scan, and `thin` of that. Its `places` are empty.
+/// The skin of a scan that was thinned without cuts, as thinned_scan() takes it: `clean` was made
+/// of the scan, and `thin` of that. Its `places` are empty.
 tissue::FullSkin skin_before_thinning(const io::Scan& scan, const CleanMesh& clean,
                                       const ThinMesh& thin);
 
