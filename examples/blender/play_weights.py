@@ -93,7 +93,10 @@ def corrected(name, shapes):
 def key_shape(mesh, name, times, values):
     curve = mesh.shape_keys.animation_data_create()
     curve.action = curve.action or bpy.data.actions.new(f"{mesh.name} weights")
-    points = curve.action.fcurves.new(f'key_blocks["{name}"].value').keyframe_points
+    curves, path = curve.action.fcurves, f'key_blocks["{name}"].value'
+    if curves.find(path):  # of a recording that was played before
+        curves.remove(curves.find(path))
+    points = curves.new(path).keyframe_points
     points.add(len(times))
     for point, time, value in zip(points, times, values):
         point.co = (1 + time * FRAME_RATE, value)
@@ -154,6 +157,7 @@ def drive_correctives(mesh, skin):
         pair = corrected(key.name, skin.key_blocks)
         if not pair:
             continue
+        key.driver_remove("value")  # of a recording that was played before
         driver = key.driver_add("value").driver
         driver.type = "SCRIPTED"
         for letter, name in zip("ab", pair):

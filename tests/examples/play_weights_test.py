@@ -26,6 +26,10 @@ class Key:
     def __init__(self, name):
         self.name, self.driver = name, None
 
+    def driver_remove(self, member):
+        assert member == "value"
+        self.driver = None
+
     def driver_add(self, member):
         assert member == "value"
         variables = types.SimpleNamespace(all=[])
@@ -55,10 +59,14 @@ def mesh_of(*names):
     curves = {}
 
     def new(path):
+        assert path not in curves, "Blender refuses a second curve"
         curves[path] = Curve()
         return curves[path]
 
-    action = types.SimpleNamespace(fcurves=types.SimpleNamespace(new=new))
+    def remove(curve):
+        del curves[next(path for path, one in curves.items() if one is curve)]
+
+    action = types.SimpleNamespace(fcurves=types.SimpleNamespace(new=new, find=curves.get, remove=remove))
     keys = types.SimpleNamespace(key_blocks=Named(("Basis", *names), Key),
                                  animation_data_create=lambda: types.SimpleNamespace(action=action))
     return types.SimpleNamespace(name="mesh", shape_keys=keys, curves=curves)
@@ -138,6 +146,13 @@ class Correctives(unittest.TestCase):
 
 
 class Shapes(unittest.TestCase):
+    def test_a_second_recording_replaces_the_first(self):
+        mesh = mesh_of("jawOpen")
+        for values in ([0, 1], [0, 0.5]):
+            self.assertEqual(script.key_shapes(mesh, mesh.shape_keys, [0, 1], {"jawopen": values}), 1)
+        curve = mesh.curves['key_blocks["jawOpen"].value']
+        self.assertEqual([point.co[1] for point in curve.points], [0, 0.5])
+
     def test_those_without_a_weight_are_listed(self):
         skin = mesh_of("jawOpen", "mouthClose", "eyeBlinkLeft", "jawOpen_mouthClose").shape_keys
         self.assertEqual(script.still_shapes(skin, {"jawopen": [0, 1], "eyeblinkleft": [0, 0]}), ["mouthClose", "eyeBlinkLeft"])
