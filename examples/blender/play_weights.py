@@ -58,6 +58,8 @@ def seconds(row):
 
 def read_weights(file):
     """Times in seconds from the first row, and for each column its values; empty cells repeat the last value."""
+    if not os.path.isfile(file):
+        raise InputError(f"{file}: no such file")
     with open(file, newline="", encoding="utf-8-sig") as stream:
         rows = list(csv.DictReader(stream))
     if not rows or not {"time_s", "time", "timestamp", "Timecode"} & set(rows[0]):
@@ -173,6 +175,8 @@ def drive_correctives(mesh, skin):
 
 def film(scene):
     """A camera, three lamps and a renderer for a portrait of the face."""
+    for material in bpy.data.materials:
+        material.cycles.sample_as_light = False  # unlit parts are no lamps: as such they only make noise
     eyes = [bpy.data.objects[name].matrix_world.translation for name in ("eye_R", "eye_L") if name in bpy.data.objects]
     if len(eyes) == 2:
         at = (eyes[0] + eyes[1]) / 2 + mathutils.Vector((0, 0, -0.042))
@@ -206,12 +210,13 @@ def film(scene):
 
 
 def colour_of(material):
-    """The output socket that gives a material its colour, or the colour where there is none; and the roughness."""
+    """The output socket that gives a material its colour, or the colour where there is none; and the roughness, None
+    where the material is unlit."""
     for node in material.node_tree.nodes:
         for name in ("Base Color", "Color"):
             if node.type in ("BSDF_PRINCIPLED", "EMISSION", "BACKGROUND") and name in node.inputs:
                 socket = node.inputs[name]
-                roughness = node.inputs["Roughness"].default_value if "Roughness" in node.inputs else 1
+                roughness = node.inputs["Roughness"].default_value if "Roughness" in node.inputs else None
                 return (socket.links[0].from_socket if socket.links else tuple(socket.default_value)), roughness
     return (1, 1, 1, 1), 1
 
@@ -275,8 +280,12 @@ def bake_colours(item):
         surface, output = nodes.new("ShaderNodeBsdfPrincipled"), nodes.new("ShaderNodeOutputMaterial")
         picture = nodes.new("ShaderNodeTexImage")
         picture.image = image
-        surface.inputs["Roughness"].default_value = roughness
-        links.new(picture.outputs["Color"], surface.inputs["Base Color"])
+        if roughness is None:  # unlit: it shines by itself
+            surface.inputs["Base Color"].default_value = (0, 0, 0, 1)
+            links.new(picture.outputs["Color"], surface.inputs["Emission"])
+        else:
+            surface.inputs["Roughness"].default_value = roughness
+            links.new(picture.outputs["Color"], surface.inputs["Base Color"])
         links.new(surface.outputs[0], output.inputs["Surface"])
 
 
