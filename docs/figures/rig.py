@@ -12,7 +12,7 @@ import sys
 import numpy
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parents[2] / "examples/blender"))
-import play_weights  # noqa: E402  mends the importer, too
+import play_weights  # noqa: E402  Importing it also repairs the glTF importer.
 import bpy  # noqa: E402
 
 WIDTH, HEIGHT, COLUMNS = 300, 358, 4

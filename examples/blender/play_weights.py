@@ -272,7 +272,8 @@ def bake_colours(item):
     scene.cycles.use_denoising = False  # Debian's Blender has no denoiser, and bakes black with one
     bpy.ops.object.bake(type="EMIT", margin=4, use_clear=False)
     fill_gaps(image)
-    image.filepath_raw = f"//{item.name}.png"  # by which an FBX tells textures apart
+    # The FBX exporter identifies a texture by its file path. Textures without a path would be taken for one and the same.
+    image.filepath_raw = f"//{item.name}.png"
     image.pack()
     for material, roughness in zip(materials, rough):
         material.node_tree.nodes.clear()
